@@ -2,6 +2,8 @@
 
 #include "base/files/keepNoHoles.h"
 
+#include <QCoreApplication>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -24,7 +26,11 @@ namespace {
 
 } // namespace
 
-JobRunner::JobRunner(QObject *parent) : QObject(parent) {}
+JobRunner::JobRunner(QObject *parent) : QObject(parent)
+{
+    m_pause.setSingleShot(true);
+    connect(&m_pause, &QTimer::timeout, this, &JobRunner::begin);
+}
 
 JobRunner::~JobRunner()
 {
@@ -38,32 +44,48 @@ JobRunner::~JobRunner()
         m_thread.join();
 }
 
-void JobRunner::start(Job job)
+void JobRunner::start(Job job, int pauseMs)
+{
+    discard();
+    m_next = std::move(job);
+    pauseMs > 0 ? m_pause.start(pauseMs) : begin();
+    m_isRunning = true;
+    emit busyChanged(true);
+}
+
+void JobRunner::begin()
 {
     {
         const std::lock_guard lock(m_mutex);
-        m_request.stop.request_stop();
-        m_request = {++m_newest, std::move(job), {}};
+        m_request = {m_newest, std::exchange(m_next, {}), {}};
         if (!std::exchange(m_isWorking, true))
             m_thread = std::jthread([this](const std::stop_token &quit) { work(quit); });
     }
     m_wake.notify_one();
-    m_isRunning = true;
-    emit started();
 }
 
 void JobRunner::cancel()
 {
     if (!m_isRunning)
         return;
-    {
-        const std::lock_guard lock(m_mutex);
-        m_request.stop.request_stop();
-        m_request.job = {};
-    }
-    ++m_newest;
-    m_isRunning = false;
+    discard();
+    end();
     emit cancelled();
+}
+
+void JobRunner::discard()
+{
+    ++m_newest;
+    m_pause.stop();
+    const std::lock_guard lock(m_mutex);
+    m_request.stop.request_stop();
+    m_request.job = {};
+}
+
+void JobRunner::end()
+{
+    m_isRunning = false;
+    emit busyChanged(false);
 }
 
 void JobRunner::deliver(std::function<void()> part)
@@ -120,7 +142,7 @@ void JobRunner::run(const Request &request)
 
     const auto fail = [&](const Error &error) {
         post(request.number, [this, error] {
-            m_isRunning = false;
+            end();
             emit failed(error);
         });
     };
@@ -129,12 +151,14 @@ void JobRunner::run(const Request &request)
         post(request.number, [this, number = request.number, deliver = std::move(deliver)] {
             m_isRunning = false;
             deliver();
-            if (number == m_newest) // a delivery may start the next job
-                emit finished();
+            if (number != m_newest)
+                return; // a delivery may start the next job
+            end();
+            emit finished();
         });
     } catch (const Cancelled &) {
         post(request.number, [this] {
-            m_isRunning = false;
+            end();
             emit cancelled();
         });
     } catch (const Error &error) {
@@ -155,6 +179,18 @@ void JobRunner::post(std::uint64_t number, std::function<void()> action)
                 action();
         },
         Qt::QueuedConnection);
+}
+
+bool isBusy(const QObject &root)
+{
+    const QList<JobRunner *> runners = root.findChildren<JobRunner *>();
+    return std::any_of(runners.begin(), runners.end(), [](const JobRunner *one) { return one->isRunning(); });
+}
+
+void settle(const QObject &root)
+{
+    while (isBusy(root))
+        QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
 }
 
 } // namespace faintline

@@ -5,6 +5,7 @@
 
 #include <QObject>
 #include <QString>
+#include <QTimer>
 
 #include <condition_variable>
 #include <cstdint>
@@ -30,7 +31,8 @@ public:
     explicit JobRunner(QObject *parent = nullptr);
     ~JobRunner() override;
 
-    void start(Job job);
+    /// `pauseMs`: for so long, the job may still be replaced before it begins.
+    void start(Job job, int pauseMs = 0);
     void cancel();
 
     /// Called by a job on the worker to deliver a partial result; the job continues.
@@ -40,7 +42,7 @@ public:
     bool isRunning() const { return m_isRunning; }
 
 signals:
-    void started();
+    void busyChanged(bool isBusy); ///< true at each start, false before its end is signalled
     void progressed(double fraction, const QString &what);
 
     // Each started job that is not replaced by a newer one ends in exactly one of these.
@@ -55,14 +57,19 @@ private:
         std::stop_source stop;
     };
 
+    void begin();
+    void discard();
     void work(const std::stop_token &quit);
     void run(const Request &request);
+    void end();
     /// Calls `action` in this object's thread, unless a newer job was started by then.
     void post(std::uint64_t number, std::function<void()> action);
 
     std::uint64_t m_newest = 0;  ///< of this object's thread
     std::uint64_t m_current = 0; ///< of the worker: the job it runs
     bool m_isRunning = false;
+    Job m_next; ///< begins after the pause
+    QTimer m_pause;
 
     std::mutex m_mutex;
     std::condition_variable_any m_wake;
@@ -70,5 +77,10 @@ private:
     bool m_isWorking = false; ///< guarded by m_mutex: whether the thread will look for a request once more
     std::jthread m_thread;    ///< last, so that it ends first
 };
+
+/// Whether a job runs of what `root` contains: of a runner that has it as an ancestor.
+bool isBusy(const QObject &root);
+/// Processes events until none does.
+void settle(const QObject &root);
 
 } // namespace faintline

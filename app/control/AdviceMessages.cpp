@@ -15,12 +15,14 @@ AdviceMessages::AdviceMessages(const Document &document, AnalysisController &con
     : QObject(parent), m_document(document), m_controller(controller), m_check(check), m_messages(messages)
 {
     connect(&document, &Document::opened, this, [this] { m_told.clear(); });
-    connect(&check, &RecordingCheck::settled, this, &AdviceMessages::tell);
+    connect(&check, &RecordingCheck::changed, this, &AdviceMessages::tell);
 }
 
 void AdviceMessages::tell()
 {
-    const std::vector<Advice> &all = m_check.advice();
+    if (m_check.isCounting())
+        return;
+    const std::vector<Advice> all = m_check.advice();
     const auto next = std::find_if(all.begin(), all.end(), [this](const Advice &advice) {
         return !m_told.contains(QString::fromStdString(advice.name));
     });

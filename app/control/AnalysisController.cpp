@@ -70,8 +70,10 @@ AnalysisController::AnalysisController(Document &document, QObject *parent) : QO
     connect(&m_document, &Document::settingsChanged, this, &AnalysisController::run);
     connect(&m_document.viewport(), &Viewport::spanChanged, this, &AnalysisController::dropPartialPreview);
     connect(&m_document, &Document::opened, this, [this] { m_kept.reset(); });
-    connect(&m_runner, &JobRunner::started, this, [this] { emit busyChanged(true); });
-    connect(&m_runner, &JobRunner::progressed, this, &AnalysisController::progressed);
+    connect(&m_runner, &JobRunner::busyChanged, this, [this](bool isBusy) {
+        if (isBusy)
+            emit busyChanged(true);
+    });
     connect(&m_runner, &JobRunner::finished, this, &AnalysisController::end);
     connect(&m_runner, &JobRunner::cancelled, this, &AnalysisController::end);
     connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {

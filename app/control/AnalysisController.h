@@ -37,6 +37,7 @@ public:
     void reopen(const OpenOptions &options);
 
     bool isBusy() const { return m_runner.isRunning(); }
+    JobRunner &runner() { return m_runner; }
 
     /// Changes one setting as one undoable step.
     void edit(const QString &field, const FieldValue &value, const QString &text);
@@ -60,7 +61,6 @@ public slots:
 
 signals:
     void busyChanged(bool isBusy);
-    void progressed(double fraction, const QString &what);
     void viewRestored(const faintline::ViewState &view); ///< of a session, once there is something to display
     void warned(const QString &where, const QString &why);
     void failed(const faintline::Error &error);
@@ -95,7 +95,7 @@ private:
     std::shared_ptr<const KeptFrames> m_kept; ///< of the last preview
     bool m_isOpening = false;
     bool m_showsFirstEstimates = true;
-    JobRunner m_runner; ///< last, so that its jobs end first
+    JobRunner m_runner{this}; ///< last, so that its jobs end first
 };
 
 } // namespace faintline

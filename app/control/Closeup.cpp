@@ -9,7 +9,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr int closeupPauseMs = 80;
+    constexpr int closeupPauseMs = 80; ///< a view on its way is not computed
     /// For each of the two; enough for more frames than a screen has rows.
     constexpr std::size_t byteBudget = memoryShares::closeup;
 
@@ -19,17 +19,15 @@ Closeup::Closeup(Document &document, WaterfallView &input, WaterfallView &output
     : QObject(parent), m_document(document), m_input(input), m_output(output)
 {
     input.canvas()->installEventFilter(this);
-    m_pause.setSingleShot(true);
-    m_pause.setInterval(closeupPauseMs);
-    connect(&m_pause, &QTimer::timeout, this, &Closeup::compute);
     connect(&document, &Document::opened, this, &Closeup::follow);
     connect(&document, &Document::analysisChanged, this, &Closeup::follow);
     connect(&document, &Document::provisionalChanged, this, &Closeup::show);
     connect(&document.viewport(), &Viewport::spanChanged, this, &Closeup::follow);
     connect(&document.viewport(), &Viewport::followingChanged, this, &Closeup::follow);
-    connect(&m_runner, &JobRunner::failed, this, &Closeup::settled); // the merged rows stay
-    connect(&m_runner, &JobRunner::finished, this, &Closeup::settled);
-    connect(&m_runner, &JobRunner::cancelled, this, &Closeup::settled);
+    connect(&m_runner, &JobRunner::busyChanged, this, [this](bool isBusy) {
+        if (!isBusy) // after a failure, the merged rows stay
+            emit shown();
+    });
 }
 
 bool Closeup::eventFilter(QObject *watched, QEvent *event)
@@ -84,46 +82,37 @@ FrameStretch Closeup::wanted() const
 void Closeup::follow()
 {
     const FrameStretch stretch = wanted();
-    if (m_analysis != current() || (stretch.isEmpty() && isBusy()))
+    if (m_analysis != current() || (stretch.isEmpty() && m_runner.isRunning()))
         stop();
     if (stretch.isEmpty() || (m_analysis && m_stretch == stretch))
         return;
-    m_runner.cancel();
-    m_pause.start();
-}
-
-void Closeup::stop()
-{
-    m_pause.stop();
-    m_runner.cancel();
-    m_analysis.reset();
-    m_stretch = {};
-    m_inputStretch.reset();
-    m_statisticStretch.reset();
-}
-
-void Closeup::compute()
-{
-    m_stretch = wanted();
-    if (m_stretch.isEmpty())
-        return emit settled();
+    m_stretch = stretch;
     m_analysis = current();
     m_inputStretch.reset();
     m_statisticStretch.reset();
     for (WaterfallView *view : {&m_input, &m_output})
         if (view->shownPicture() == view->picture())
             view->setCloseup(nullptr); // one that is out of sight takes no memory beside the next
-    m_runner.start(
-        [this, analysis = m_analysis, stretch = m_stretch](const RunContext &context) -> JobRunner::Delivery {
-            m_runner.deliver([this, input = inputCloseup(*analysis, stretch, byteBudget, context)] {
-                m_inputStretch = input;
-                show();
-            });
-            return [this, statistic = statisticCloseup(*analysis, stretch, byteBudget, context)] {
-                m_statisticStretch = statistic;
-                show();
-            };
+    const auto job = [this, analysis = m_analysis, stretch](const RunContext &context) -> JobRunner::Delivery {
+        m_runner.deliver([this, input = inputCloseup(*analysis, stretch, byteBudget, context)] {
+            m_inputStretch = input;
+            show();
         });
+        return [this, statistic = statisticCloseup(*analysis, stretch, byteBudget, context)] {
+            m_statisticStretch = statistic;
+            show();
+        };
+    };
+    m_runner.start(job, closeupPauseMs);
+}
+
+void Closeup::stop()
+{
+    m_runner.cancel();
+    m_analysis.reset();
+    m_stretch = {};
+    m_inputStretch.reset();
+    m_statisticStretch.reset();
 }
 
 void Closeup::show()

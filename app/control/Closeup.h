@@ -4,8 +4,6 @@
 #include "app/document/Document.h"
 #include "inspect/closeup.h"
 
-#include <QTimer>
-
 namespace faintline {
 
 class WaterfallView;
@@ -25,10 +23,8 @@ public:
     /// A live run's picture as it is being looked back at; null where its newest frames are seen, which are single.
     std::shared_ptr<const PeakPyramid> lookedBackAt(const WaterfallView &view) const;
 
-    bool isBusy() const { return m_pause.isActive() || m_runner.isRunning(); }
-
 signals:
-    void settled();
+    void shown();
 
 protected:
     bool eventFilter(QObject *watched, QEvent *event) override; ///< the view's canvas: another size, other pixels
@@ -38,7 +34,6 @@ private:
     bool showsNewest() const;
     FrameStretch wanted() const;
     void follow();
-    void compute();
     void show();
     void stop();
 
@@ -49,8 +44,7 @@ private:
     FrameStretch m_stretch;                     ///< shown, or being made
     std::shared_ptr<const PeakPyramid> m_inputStretch;
     std::shared_ptr<const PeakPyramid> m_statisticStretch;
-    QTimer m_pause;     ///< a view on its way is not computed
-    JobRunner m_runner; ///< last, so that its jobs end first
+    JobRunner m_runner{this}; ///< last, so that its jobs end first
 };
 
 } // namespace faintline

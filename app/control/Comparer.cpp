@@ -18,11 +18,7 @@ Comparer::Comparer(Document &document, QObject *parent) : QObject(parent), m_doc
     });
     connect(&document, &Document::analysisChanged, this, &Comparer::compare);
     connect(&m_runner, &JobRunner::progressed, this, &Comparer::progressed);
-    connect(&m_runner, &JobRunner::finished, this, &Comparer::settled);
-    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
-        emit failed(error);
-        emit settled();
-    });
+    connect(&m_runner, &JobRunner::failed, this, &Comparer::failed);
 }
 
 void Comparer::keep()

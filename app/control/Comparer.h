@@ -50,7 +50,6 @@ public:
 
     const std::optional<Result> &result() const { return m_result; }
     const std::optional<Cost> &cost() const { return m_cost; }
-    bool isBusy() const { return m_runner.isRunning(); }
 
     void setActive(bool isActive);
     /// Costs vary between runs; turn off where a picture must be reproducible.
@@ -62,7 +61,6 @@ signals:
     void costChanged();
     void progressed(double fraction, const QString &what);
     void failed(const faintline::Error &error);
-    void settled();
 
 private:
     void compare();
@@ -78,7 +76,7 @@ private:
     bool m_isActive = false;
     bool m_isMeasuringCost = true;
     JobRunner m_meter;
-    JobRunner m_runner; ///< last, so that its jobs end first
+    JobRunner m_runner{this}; ///< last, so that its jobs end first
 };
 
 } // namespace faintline

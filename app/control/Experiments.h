@@ -80,7 +80,7 @@ private:
     int m_lastId = 0;
     int m_running = 0; ///< id; 0: nothing
     QTimer m_announcer;
-    JobRunner m_runner; ///< last, so that its jobs end first
+    JobRunner m_runner{this}; ///< last, so that its jobs end first
 };
 
 } // namespace faintline

@@ -14,6 +14,7 @@ class Document;
 struct FramePlace {
     double seconds = 0.0;
     std::vector<double> position; ///< one per axis of the grid, in its unit
+    bool operator==(const FramePlace &) const = default;
 };
 
 /// Position of the cursor; nothing if there is none.

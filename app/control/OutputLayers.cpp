@@ -15,16 +15,13 @@ namespace faintline {
 
 namespace {
 
-    constexpr int pauseMs = 40;
+    constexpr int layerPauseMs = 40; ///< while the view changes
 
 } // namespace
 
 OutputLayers::OutputLayers(Document &document, WaterfallView &output, QObject *parent)
     : QObject(parent), m_document(document)
 {
-    m_pause.setSingleShot(true);
-    m_pause.setInterval(pauseMs);
-    connect(&m_pause, &QTimer::timeout, this, &OutputLayers::compute);
     connect(&document, &Document::opened, this, [this] {
         m_runner.cancel();
         m_result = {};
@@ -33,12 +30,7 @@ OutputLayers::OutputLayers(Document &document, WaterfallView &output, QObject *p
     connect(&document, &Document::analysisChanged, this, &OutputLayers::follow);
     connect(&document, &Document::provisionalChanged, this, &OutputLayers::show);
     add(new LineLayerPlane(output, document.viewport(), this));
-    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
-        emit failed(error);
-        emit settled();
-    });
-    connect(&m_runner, &JobRunner::finished, this, &OutputLayers::settled);
-    connect(&m_runner, &JobRunner::cancelled, this, &OutputLayers::settled);
+    connect(&m_runner, &JobRunner::failed, this, &OutputLayers::failed);
 }
 
 void OutputLayers::addPings(PingMap &map, PingViewports &viewports)
@@ -178,12 +170,6 @@ void OutputLayers::setWatching(bool isWatching)
     follow();
 }
 
-void OutputLayers::follow()
-{
-    if (isPossible() && isWanted())
-        m_pause.start();
-}
-
 void OutputLayers::followSpan()
 {
     if (layer() != OutputLayer::Statistic)
@@ -225,16 +211,17 @@ std::optional<Index> OutputLayers::singleFrame(const std::optional<Place> &curso
     return plane().isOfOneFrame() && cursor ? std::optional(cursor->frame) : std::nullopt;
 }
 
-void OutputLayers::compute()
+void OutputLayers::follow()
 {
-    if (!isPossible())
-        return emit settled();
+    if (!isPossible() || !isWanted())
+        return;
     const auto analysis = m_document.analysis();
     const bool wantsPicture = layer() != OutputLayer::Statistic;
     const LayerWindow wanted = plane().window(*analysis);
     const std::optional<Place> cursor = this->cursor();
-    m_runner.start([this, analysis, cursor, frame = singleFrame(cursor), wantsPicture, wanted, shown = plane().shown(),
-                    isOfTracks = layer() == OutputLayer::Presence](const RunContext &context) -> JobRunner::Delivery {
+    const auto job = [this, analysis, cursor, frame = singleFrame(cursor), wantsPicture, wanted,
+                      shown = plane().shown(),
+                      isOfTracks = layer() == OutputLayer::Presence](const RunContext &context) -> JobRunner::Delivery {
         if (!m_replay || m_replay->analysis() != analysis)
             m_replay = std::make_shared<LayerReplay>(
                 analysis, memoryShares::orSome(memoryShares::layerReplay, 4 * bytesOfStates(*analysis)));
@@ -263,7 +250,8 @@ void OutputLayers::compute()
                 *analysis, m_replay->at(cursor->frame, context, {cursor->cell, cursor->cell + 1}), cursor->cell, shown);
         }
         return delivery(result);
-    });
+    };
+    m_runner.start(job, layerPauseMs);
 }
 
 std::optional<CellReading> OutputLayers::readingAt(const FramePlace &at) const

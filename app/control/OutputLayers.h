@@ -5,8 +5,6 @@
 #include "app/document/Document.h"
 #include "inspect/outputLayers.h"
 
-#include <QTimer>
-
 #include <memory>
 #include <optional>
 
@@ -42,7 +40,6 @@ public:
     QString heading() const; ///< heading of a picture that shows the layer
     bool isOverlay() const { return m_isOverlay; }
     const LayerItem &item() const; ///< for the open source
-    bool isBusy() const { return m_pause.isActive() || m_runner.isRunning(); }
 
     /// Values of a cell: exact for the cell under the cursor, elsewhere from the layer's picture.
     std::optional<CellReading> readingAt(const FramePlace &place) const;
@@ -59,7 +56,6 @@ signals:
     void layerChanged();
     void readingChanged();
     void failed(const faintline::Error &error);
-    void settled();
 
 protected:
     bool eventFilter(QObject *watched, QEvent *event) override; ///< for size and theme changes of the view
@@ -89,7 +85,6 @@ private:
     void follow();
     void followSpan();
     void followCursor(const LayerPlane &of);
-    void compute();
     QString rateName(std::size_t axis) const;
     Place placeOf(const FramePlace &place) const;
     std::optional<Place> cursor() const;
@@ -105,9 +100,8 @@ private:
     bool m_isOverlay = false;
     bool m_isWatching = false;
     Result m_result;
-    QTimer m_pause;                        ///< delays while the view changes
     std::shared_ptr<LayerReplay> m_replay; ///< used by jobs only, one at a time
-    JobRunner m_runner;                    ///< last, so that its jobs end first
+    JobRunner m_runner{this};              ///< last, so that its jobs end first
 };
 
 } // namespace faintline

@@ -1,12 +1,7 @@
 #pragma once
 
-#include "app/base/JobRunner.h"
+#include "app/base/Inquiry.h"
 #include "inspect/closeup.h"
-
-#include <QObject>
-
-#include <memory>
-#include <optional>
 
 class QAction;
 
@@ -29,11 +24,9 @@ public:
     /// The picture of the document's analysis; null unless it is wanted and computed.
     std::shared_ptr<const PeakPyramid> picture() const;
     QString heading() const; ///< precondition: there is a picture
-    bool isBusy() const { return m_runner.isRunning(); }
 
 signals:
     void changed(); ///< the picture
-    void settled();
     void failed(const faintline::Error &error);
 
 private:
@@ -41,9 +34,7 @@ private:
 
     Document &m_document;
     QAction *m_action;
-    std::shared_ptr<const Analysis> m_analysis; ///< of the picture
-    std::optional<PlainPicture> m_plain;
-    JobRunner m_runner; ///< last, so that its jobs end first
+    Inquiry<std::optional<PlainPicture>, std::shared_ptr<const Analysis>> m_plain;
 };
 
 } // namespace faintline

@@ -22,47 +22,44 @@ namespace {
 
 } // namespace
 
-RecordingCheck::RecordingCheck(const Document &document, QObject *parent) : QObject(parent), m_document(document)
+RecordingCheck::RecordingCheck(const Document &document, QObject *parent)
+    : QObject(parent), m_document(document),
+      m_look(
+          this, [this] { return m_look.questionIf(m_document.isCurrent(), {}, m_document.analysis()); },
+          [](const auto &analysis, const RunContext &context) {
+              return Look{checkNoiseLaw(*analysis, context), advise(*analysis, context)};
+          },
+          &RecordingCheck::changed)
 {
-    connect(&m_countRunner, &JobRunner::progressed, this, &RecordingCheck::countProgressed);
-    connect(&m_countRunner, &JobRunner::failed, this, [this](const Error &error) { m_failure = error; });
-    for (JobRunner *runner : {&m_lookRunner, &m_countRunner}) {
-        connect(runner, &JobRunner::finished, this, &RecordingCheck::end);
-        connect(runner, &JobRunner::cancelled, this, &RecordingCheck::end);
-        connect(runner, &JobRunner::failed, this, &RecordingCheck::end);
-    }
-    connect(&document, &Document::opened, this, [this] {
-        m_correction.reset();
-        forget();
+    connect(&m_counter, &JobRunner::progressed, this, &RecordingCheck::countProgressed);
+    connect(&m_counter, &JobRunner::busyChanged, this, &RecordingCheck::changed);
+    connect(&m_counter, &JobRunner::failed, this, [this](const Error &error) {
+        m_failure = error;
+        emit changed();
     });
-    connect(&document, &Document::settingsChanged, this, &RecordingCheck::forget);
-    connect(&document, &Document::analysisChanged, this, &RecordingCheck::look);
+    connect(&document, &Document::opened, this, [this] { m_correction.reset(); });
+    for (const auto outdated : {&Document::opened, &Document::settingsChanged, &Document::analysisChanged}) {
+        connect(&document, outdated, this, &RecordingCheck::forgetCount);
+        m_look.askAt(document, outdated);
+    }
 }
 
-/// Results for other settings are no longer valid.
-void RecordingCheck::forget()
+void RecordingCheck::forgetCount()
 {
     stopCount();
-    if (m_lookRunner.isRunning())
-        m_lookRunner.cancel();
-    m_law.reset();
-    m_advice.clear();
     m_count.reset();
     m_failure.reset();
-    end();
+    emit changed();
 }
 
-void RecordingCheck::look()
+const NoiseLawCheck *RecordingCheck::law() const
 {
-    forget();
-    m_lookRunner.start([this, analysis = m_document.analysis()](const RunContext &context) -> JobRunner::Delivery {
-        const std::optional<NoiseLawCheck> law = checkNoiseLaw(*analysis, context);
-        const std::vector<Advice> advice = advise(*analysis, context);
-        return [this, law, advice] {
-            m_law = law;
-            m_advice = advice;
-        };
-    });
+    return m_look.answer() && m_look.answer()->law ? &*m_look.answer()->law : nullptr;
+}
+
+std::vector<Advice> RecordingCheck::advice() const
+{
+    return m_look.answer() ? m_look.answer()->advice : std::vector<Advice>();
 }
 
 void RecordingCheck::startCount()
@@ -71,18 +68,11 @@ void RecordingCheck::startCount()
         return;
     m_count.reset();
     m_failure.reset();
-    m_countRunner.start([this, analysis = m_document.analysis()](const RunContext &context) -> JobRunner::Delivery {
+    m_counter.start([this, analysis = m_document.analysis()](const RunContext &context) -> JobRunner::Delivery {
         const SurrogateCount counted =
             countOnSurrogates(analysis->recording, analysis->settings, runsFor(*analysis), context);
         return [this, counted] { setCount(counted); };
     });
-    emit changed();
-}
-
-void RecordingCheck::stopCount()
-{
-    if (isCounting())
-        m_countRunner.cancel();
 }
 
 void RecordingCheck::setCount(const SurrogateCount &count)
@@ -114,13 +104,6 @@ AnalysisSettings RecordingCheck::remedied(const Advice &advice) const
     if (m_document.recording())
         after.model = withSlopesIn(unit, after.model, hzPerSecondOfABinAFrame(after, m_document.recording()->info()));
     return after;
-}
-
-void RecordingCheck::end()
-{
-    emit changed();
-    if (!isBusy())
-        emit settled();
 }
 
 } // namespace faintline

@@ -1,14 +1,9 @@
 #pragma once
 
-#include "app/base/JobRunner.h"
+#include "app/base/Inquiry.h"
 #include "inspect/advice.h"
 #include "inspect/noiseLaw.h"
 #include "inspect/surrogates.h"
-
-#include <QObject>
-
-#include <optional>
-#include <vector>
 
 namespace faintline {
 
@@ -26,16 +21,15 @@ class RecordingCheck : public QObject
 public:
     explicit RecordingCheck(const Document &document, QObject *parent = nullptr);
 
-    const std::optional<NoiseLawCheck> &law() const { return m_law; }
-    const std::vector<Advice> &advice() const { return m_advice; }
+    const NoiseLawCheck *law() const; ///< null: not known, or not applicable
+    std::vector<Advice> advice() const;
     const std::optional<SurrogateCount> &count() const { return m_count; }
     const std::optional<Error> &failure() const { return m_failure; } ///< reason why the count failed
 
-    bool isBusy() const { return isCounting() || m_lookRunner.isRunning(); }
-    bool isCounting() const { return m_countRunner.isRunning(); }
+    bool isCounting() const { return m_counter.isRunning(); }
 
     void startCount();
-    void stopCount();
+    void stopCount() { m_counter.cancel(); }
     /// Sets the result of a count.
     void setCount(const SurrogateCount &count);
 
@@ -50,22 +44,21 @@ public:
 signals:
     void changed(); ///< law, advice or count
     void countProgressed(double fraction, const QString &what);
-    /// No count or check is running any more.
-    void settled();
 
 private:
-    void forget();
-    void look();
-    void end();
+    struct Look {
+        std::optional<NoiseLawCheck> law;
+        std::vector<Advice> advice;
+    };
+
+    void forgetCount();
 
     const Document &m_document;
-    std::optional<NoiseLawCheck> m_law;
-    std::vector<Advice> m_advice;
     std::optional<SurrogateCount> m_count;
     std::optional<AnalysisSettings> m_correction; ///< after the last count
     std::optional<Error> m_failure;
-    JobRunner m_lookRunner;
-    JobRunner m_countRunner; ///< last, so that its jobs end first
+    JobRunner m_counter{this}; ///< last, as the next one, so that their jobs end first
+    Inquiry<Look, std::shared_ptr<const Analysis>> m_look;
 };
 
 } // namespace faintline

@@ -1,6 +1,5 @@
 #include "app/panels/ChannelsPanel.h"
 
-#include "app/base/VisibilityWatcher.h"
 #include "app/control/AnalysisController.h"
 #include "app/document/Document.h"
 #include "base/memoryShares.h"
@@ -36,7 +35,7 @@ ChannelsPanel::ChannelsPanel(Document &document, AnalysisController &controller,
     : QWidget(parent), m_document(document), m_controller(controller), m_sentence(new QLabel), m_page(new QLabel),
       m_previous(pageButton(Qt::LeftArrow, tr("Previous channels"))),
       m_next(pageButton(Qt::RightArrow, tr("Next channels"))), m_pictures(new LinkedPictures(document.viewport())),
-      m_sight(new VisibilityWatcher(*this))
+      m_channels(this, &ChannelsPanel::question, picturesOf, &ChannelsPanel::show)
 {
     m_sentence->setTextFormat(Qt::PlainText);
     m_sentence->setWordWrap(true);
@@ -50,20 +49,14 @@ ChannelsPanel::ChannelsPanel(Document &document, AnalysisController &controller,
     layout->addWidget(m_pictures, 1);
 
     connect(m_pictures, &LinkedPictures::chosen, this, &ChannelsPanel::choose);
-    connect(m_sight, &VisibilityWatcher::came, this, &ChannelsPanel::follow);
+    connect(&m_channels, &JobRunner::busyChanged, this, &ChannelsPanel::begin);
+    m_channels.watch(*this);
     connect(&document, &Document::opened, this, [this] {
         m_first = 0;
         follow();
     });
     for (const auto changed : {&Document::analysisChanged, &Document::settingsChanged, &Document::liveChanged})
         connect(&document, changed, this, &ChannelsPanel::follow);
-    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
-        clear();
-        m_sentence->setText(labelText(error.why(), longestReason));
-        emit settled();
-    });
-    for (const auto ended : {&JobRunner::finished, &JobRunner::cancelled})
-        connect(&m_runner, ended, this, &ChannelsPanel::settled);
     follow();
 }
 
@@ -137,28 +130,15 @@ void ChannelsPanel::setFirstChannel(int channel)
 
 void ChannelsPanel::follow()
 {
-    const QString why = obstacle();
-    m_sentence->setText(why);
-    m_sentence->setVisible(!why.isEmpty());
-    for (QWidget *part : std::initializer_list<QWidget *>{m_pictures, m_page, m_previous, m_next})
-        part->setVisible(why.isEmpty());
-    if (!why.isEmpty())
-        return clear();
-    if (!m_sight->isOn())
-        return;
-    const Request request = wanted();
-    if (!(request == m_request)) {
-        m_request = request;
-        compute();
-    }
-    nameChannels();
+    m_channels.ask();
+    if (m_pictures->count() > 0)
+        nameChannels();
 }
 
-void ChannelsPanel::clear()
+ChannelsPanel::Asking::Question ChannelsPanel::question() const
 {
-    m_runner.cancel();
-    m_request = {};
-    m_pictures->setCount(0);
+    const QString why = obstacle();
+    return why.isEmpty() ? Asking::Question(std::tuple(wanted())) : why;
 }
 
 void ChannelsPanel::nameChannels()
@@ -181,36 +161,60 @@ void ChannelsPanel::nameChannels()
     m_next->setEnabled(m_first + mostAtOnce < channelCount());
 }
 
-void ChannelsPanel::compute()
+std::vector<ChannelsPanel::Channel> ChannelsPanel::picturesOf(const Request &request, const RunContext &context,
+                                                              const Asking::Partly &partly)
 {
-    m_pictures->setCount(m_request.count);
-    for (int place = 0; place < m_request.count; ++place) {
+    std::vector<Channel> channels;
+    for (int place = 0; place < request.count; ++place) {
+        const auto share = [&](int done) { return double(done) / request.count; };
+        Channel &channel = channels.emplace_back();
+        try {
+            channel.first = channelPicture(request.recording, request.settings, request.first + place,
+                                           memoryShares::channels / std::size_t(request.count),
+                                           context.part(share(place), share(place + 1)));
+        } catch (const Error &error) { // of this channel; the others are shown
+            channel.second = labelText(error.why(), longestReason);
+        }
+        partly(channels);
+    }
+    return channels;
+}
+
+void ChannelsPanel::begin()
+{
+    if (!m_channels.isRunning())
+        return;
+    showParts();
+    m_pictures->setCount(wanted().count);
+    for (int place = 0; place < m_pictures->count(); ++place) {
         m_pictures->at(place).setPicture(nullptr, {});
         m_pictures->at(place).setEmptySentence(tr("Computing channel %1 …").arg(m_first + place));
     }
-    m_runner.start([this, request = m_request](const RunContext &context) -> JobRunner::Delivery {
-        const std::size_t bytes = memoryShares::channels / std::size_t(request.count);
-        for (int place = 0; place < request.count; ++place) {
-            const auto share = [&](int done) { return double(done) / request.count; };
-            ChannelPicture made;
-            QString why;
-            try {
-                made = channelPicture(request.recording, request.settings, request.first + place, bytes,
-                                      context.part(share(place), share(place + 1)));
-            } catch (const Error &error) { // of this channel; the others are shown
-                why = labelText(error.why(), longestReason);
-            }
-            m_runner.deliver([this, place, made, why] { show(place, made, why); });
-        }
-        return [] {};
-    });
+    nameChannels();
 }
 
-void ChannelsPanel::show(int place, const ChannelPicture &made, const QString &why)
+/// The pictures, or in their place why there are none.
+void ChannelsPanel::showParts()
 {
-    WaterfallView &view = m_pictures->at(place);
-    view.setEmptySentence(why);
-    view.setPicture(made.picture, made.frequency);
+    const QString &why = m_channels.whyNot();
+    m_sentence->setText(why);
+    m_sentence->setVisible(!why.isEmpty());
+    for (QWidget *part : std::initializer_list<QWidget *>{m_pictures, m_page, m_previous, m_next})
+        part->setVisible(why.isEmpty());
+}
+
+void ChannelsPanel::show()
+{
+    if (!m_channels.answer()) {
+        showParts();
+        return m_pictures->setCount(0);
+    }
+    for (int place = 0; const auto &[made, why] : *m_channels.answer()) {
+        WaterfallView &view = m_pictures->at(place++);
+        view.setEmptySentence(why);
+        if (view.picture() != made.picture)
+            view.setPicture(made.picture, made.frequency);
+    }
 }
 
 void ChannelsPanel::choose(int place)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/base/JobRunner.h"
+#include "app/base/Inquiry.h"
 #include "inspect/channelPicture.h"
 
 #include <QWidget>
@@ -15,7 +15,6 @@ namespace faintline {
 class AnalysisController;
 class Document;
 class LinkedPictures;
-class VisibilityWatcher;
 
 /// The input of each channel of a recording beside each other, over its own noise, with linked zoom and cursor and one
 /// range of colours. A click on a channel makes it the analysed one. At most eight channels are shown at once, with
@@ -29,7 +28,6 @@ public:
 
     ChannelsPanel(Document &document, AnalysisController &controller, QWidget *parent = nullptr);
 
-    bool isBusy() const { return m_runner.isRunning(); }
     LinkedPictures &pictures() const { return *m_pictures; }
     QString sentence() const; ///< why there is no picture; empty if there is one
     int firstChannel() const { return m_first; }
@@ -37,9 +35,6 @@ public:
     void setFirstChannel(int channel);
 
     QSize sizeHint() const override { return {720, 300}; }
-
-signals:
-    void settled();
 
 private:
     /// What the pictures are made from.
@@ -50,18 +45,24 @@ private:
         int count = 0;
         bool operator==(const Request &) const = default;
     };
+    /// A channel's picture, or why there is none.
+    using Channel = std::pair<ChannelPicture, QString>;
+    using Asking = Inquiry<std::vector<Channel>, Request>;
 
+    static std::vector<Channel> picturesOf(const Request &request, const RunContext &context,
+                                           const Asking::Partly &partly);
     QString obstacle() const;
+    Asking::Question question() const;
     int channelCount() const;
     std::vector<int> analysed() const;
     Request wanted() const;
     void buildPager();
     void follow();
     void nameChannels();
-    void compute();
-    void show(int place, const ChannelPicture &made, const QString &why);
+    void begin();
+    void show();
+    void showParts();
     void choose(int place);
-    void clear();
 
     Document &m_document;
     AnalysisController &m_controller;
@@ -70,10 +71,8 @@ private:
     QToolButton *m_previous;
     QToolButton *m_next;
     LinkedPictures *m_pictures;
-    VisibilityWatcher *m_sight;
     int m_first = 0;
-    Request m_request;  ///< shown, or being computed
-    JobRunner m_runner; ///< last, so that its jobs end first
+    Asking m_channels;
 };
 
 } // namespace faintline

@@ -1,6 +1,5 @@
 #include "app/panels/DopplerPanel.h"
 
-#include "app/base/VisibilityWatcher.h"
 #include "app/base/filePath.h"
 #include "app/base/readingTable.h"
 #include "app/base/writeAndReport.h"
@@ -69,7 +68,12 @@ DopplerPanel::DopplerPanel(Document &document, const EventTable &events, Provena
       m_medium(new QComboBox), m_propagation(new QDoubleSpinBox), m_centre(new QDoubleSpinBox),
       m_save(new QPushButton(tr("&Save fit…"))), m_sentence(plainLabel()), m_table(new QTableWidget),
       m_notes(plainLabel()), m_frequencies(new ChartPlot), m_residuals(new ChartPlot),
-      m_sight(new VisibilityWatcher(*this))
+      m_fit(
+          this, &DopplerPanel::question,
+          [](const auto &analysis, const auto &chosen, double centreHz, double propagation, const RunContext &) {
+              return dopplerReport(*analysis, *chosen, centreHz, propagation);
+          },
+          &DopplerPanel::show)
 {
     buildInputs();
     for (QLabel *label : {m_sentence, m_notes}) {
@@ -116,7 +120,7 @@ DopplerPanel::DopplerPanel(Document &document, const EventTable &events, Provena
     layout->addWidget(sides);
     connectInputs();
     takeCentre();
-    clear();
+    m_fit.ask();
 }
 
 void DopplerPanel::buildInputs()
@@ -145,17 +149,25 @@ void DopplerPanel::connectInputs()
     connect(m_propagation, &QDoubleSpinBox::valueChanged, this, [this](double value) {
         const int known = m_medium->findData(value);
         m_medium->setCurrentIndex(known >= 0 ? known : m_medium->count() - 1);
-        follow();
+        m_fit.ask();
     });
-    connect(m_centre, &QDoubleSpinBox::valueChanged, this, &DopplerPanel::follow);
     connect(m_save, &QPushButton::clicked, this, &DopplerPanel::ask);
-    connect(m_sight, &VisibilityWatcher::came, this, &DopplerPanel::follow);
-    connect(m_events.table()->selectionModel(), &QItemSelectionModel::selectionChanged, this, &DopplerPanel::follow);
-    connect(&m_document, &Document::opened, this, &DopplerPanel::clear);
+    connect(&m_document, &Document::opened, this, [this] { // its centre frequency is not that of the previous source
+        const QSignalBlocker quiet(m_centre);
+        m_centre->setValue(0.0);
+        m_isCentreKnown = false;
+    });
     connect(&m_document, &Document::analysisChanged, this, &DopplerPanel::takeCentre);
-    connect(&m_document, &Document::shownEventsChanged, this, &DopplerPanel::follow);
-    connect(&m_runner, &JobRunner::finished, this, &DopplerPanel::settled);
-    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) { say(messageText(error.what())); });
+    connect(&m_fit, &JobRunner::busyChanged, this, [this](bool isBusy) {
+        m_save->setEnabled(!isBusy && report()); // the result belongs to the selection
+        if (isBusy && !report())
+            m_sentence->setText(tr("Fitting …"));
+    });
+    m_fit.watch(*this);
+    m_fit.sayIn(*m_sentence);
+    m_fit.askAt(*m_centre, &QDoubleSpinBox::valueChanged);
+    m_fit.askAt(*m_events.table()->selectionModel(), &QItemSelectionModel::selectionChanged);
+    m_fit.askAt(m_document, &Document::opened, &Document::shownEventsChanged);
 }
 
 QString DopplerPanel::sentence() const
@@ -167,15 +179,6 @@ void DopplerPanel::takeMedium()
 {
     if (const QVariant speed = m_medium->currentData(); speed.isValid())
         m_propagation->setValue(speed.toDouble());
-}
-
-/// Clears everything from the previous source.
-void DopplerPanel::clear()
-{
-    const QSignalBlocker quiet(m_centre);
-    m_centre->setValue(0.0);
-    m_isCentreKnown = false;
-    say(tr("Select an event to fit the pass of a source to its track."));
 }
 
 /// Shows the field for the centre frequency if needed, with the recording's value; a value typed since is kept.
@@ -190,53 +193,33 @@ void DopplerPanel::takeCentre()
     m_centre->setValue(*known);
 }
 
-/// Shows why there is no fit.
-void DopplerPanel::say(const QString &sentence)
+DopplerPanel::Asking::Question DopplerPanel::question() const
 {
-    m_runner.cancel();
-    m_report.reset();
-    m_sentence->setText(sentence);
-    m_notes->clear();
-    m_table->setRowCount(0);
-    m_table->hide();
-    m_save->setEnabled(false);
-    m_frequencies->setChart({});
-    m_residuals->setChart({});
-    emit settled();
-}
-
-void DopplerPanel::follow()
-{
-    if (m_sight->isOn())
-        fit();
-}
-
-void DopplerPanel::fit()
-{
-    m_save->setEnabled(false); // until the result belongs to the selection
     const auto analysis = m_document.lineAnalysis();
     if (!analysis)
-        return say(m_document.analysis() ? tr("A Doppler fit needs frames on frequency.")
-                                         : tr("Select an event to fit the pass of a source to its track."));
-    const std::vector<Event> events = chosenEvents(m_document, m_events);
-    if (events.empty())
-        return say(tr("There is no event at this threshold."));
+        return m_document.analysis() ? tr("A Doppler fit needs frames on frequency.")
+                                     : tr("Select an event to fit the pass of a source to its track.");
+    const auto chosen = std::make_shared<const std::vector<Event>>(chosenEvents(m_document, m_events));
+    if (chosen->empty())
+        return tr("There is no event at this threshold.");
     const double centreHz = m_centre->isHidden() ? 0.0 : m_centre->value();
     if (!m_centre->isHidden() && centreHz == 0.0)
-        return say(tr("The recording is I/Q and does not say its centre frequency; enter it, as the fit needs absolute "
-                      "frequencies."));
-    if (!m_report)
-        m_sentence->setText(tr("Fitting …"));
-    m_runner.start([this, analysis, events, centreHz,
-                    propagation = m_propagation->value()](const RunContext &) -> JobRunner::Delivery {
-        DopplerReport report = dopplerReport(*analysis, events, centreHz, propagation);
-        return [this, report = std::move(report)] { show(report); };
-    });
+        return tr("The recording is I/Q and does not say its centre frequency; enter it, as the fit needs absolute "
+                  "frequencies.");
+    return std::tuple(analysis, chosen, centreHz, m_propagation->value());
 }
 
-void DopplerPanel::show(const DopplerReport &report)
+void DopplerPanel::show()
 {
-    m_report = report;
+    m_table->setVisible(m_fit.answer());
+    m_save->setEnabled(m_fit.answer());
+    if (!m_fit.answer()) {
+        m_notes->clear();
+        m_table->setRowCount(0);
+        m_frequencies->setChart({});
+        return m_residuals->setChart({});
+    }
+    const DopplerReport &report = *m_fit.answer();
     m_sentence->setText(sentenceOf(report));
     std::vector<DopplerRow> rows = dopplerRows(report.fit);
     m_table->setRowCount(int(rows.size()) + 2);
@@ -251,7 +234,6 @@ void DopplerPanel::show(const DopplerReport &report)
             leftColumns);
     fillRow(*m_table, row, {tr("Slope at f₀"), powerText(report.fit.slopeHzPerSecond(), 4), {}, tr("Hz/s")},
             leftColumns);
-    m_table->show();
     m_table->updateGeometry();
     QStringList notes;
     for (const std::string &note : dopplerNotes(report))
@@ -261,7 +243,6 @@ void DopplerPanel::show(const DopplerReport &report)
     charts[0].curves.back().kind = Curve::Kind::Measured; // over the points, in its own colour
     m_frequencies->setChart(charts[0]);
     m_residuals->setChart(charts[1]);
-    m_save->setEnabled(true);
 }
 
 void DopplerPanel::ask()
@@ -275,11 +256,11 @@ void DopplerPanel::ask()
 
 void DopplerPanel::saveTo(const QString &path)
 {
-    if (!m_report)
+    if (!report())
         return;
     if (const auto analysis = m_document.lineAnalysis(); !analysis || analysis->calibration->isFirstEstimate)
         return emit failed(firstEstimateError());
-    m_provenance.with([this, path, report = *m_report](const std::string &provenance) {
+    m_provenance.with([this, path, report = *report()](const std::string &provenance) {
         writeAndReport(*this, path, [&] {
             writeDoppler(report, pathBytes(path));
             Json json = parseJson(provenance, "provenance");

@@ -1,11 +1,9 @@
 #pragma once
 
-#include "app/base/JobRunner.h"
+#include "app/base/Inquiry.h"
 #include "exchange/writeDoppler.h"
 
 #include <QWidget>
-
-#include <optional>
 
 class QComboBox;
 class QDoubleSpinBox;
@@ -20,7 +18,6 @@ class ChartPlot;
 class Document;
 class EventTable;
 class Provenance;
-class VisibilityWatcher;
 
 /// Fits the pass of a source to the selected event's track: rest frequency, speed, closest range and its time with
 /// their 90 % intervals, the residuals, and what the track of one sensor cannot determine.
@@ -34,8 +31,7 @@ class DopplerPanel : public QWidget
 public:
     DopplerPanel(Document &document, const EventTable &events, Provenance &provenance, QWidget *parent = nullptr);
 
-    bool isBusy() const { return m_runner.isRunning(); }
-    const std::optional<DopplerReport> &report() const { return m_report; } ///< as shown
+    const DopplerReport *report() const { return m_fit.answer(); } ///< as shown; null: none
     QString sentence() const;
     QTableWidget *table() const { return m_table; }
     ChartPlot &frequencies() { return *m_frequencies; }
@@ -49,20 +45,20 @@ public:
     QSize sizeHint() const override { return {720, 340}; }
 
 signals:
-    void settled(); ///< the fit is of the selection, or the sentence says why there is none
     void written(const QString &path);
     void failed(const faintline::Error &error);
 
 private:
+    /// Events, centre frequency, speed of propagation.
+    using Asking = Inquiry<DopplerReport, std::shared_ptr<const Analysis>, std::shared_ptr<const std::vector<Event>>,
+                           double, double>;
+
+    Asking::Question question() const;
     void buildInputs();
     void connectInputs();
     void takeMedium();
     void takeCentre();
-    void clear();
-    void follow();
-    void fit();
-    void show(const DopplerReport &report);
-    void say(const QString &sentence);
+    void show();
     void ask();
 
     Document &m_document;
@@ -79,9 +75,7 @@ private:
     QLabel *m_notes;
     ChartPlot *m_frequencies;
     ChartPlot *m_residuals;
-    VisibilityWatcher *m_sight;
-    std::optional<DopplerReport> m_report;
-    JobRunner m_runner; ///< last, so that its jobs end first
+    Asking m_fit;
 };
 
 } // namespace faintline

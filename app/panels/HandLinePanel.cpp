@@ -68,7 +68,8 @@ HandLinePanel::HandLinePanel(Document &document, const Pictures &pictures, QWidg
     : QWidget(parent), m_document(document), m_pictures(pictures), m_line(new HandLine(pictures.input)),
       m_draw(new QPushButton(tr("Dra&w"))), m_cover(new QPushButton(tr("Cover the &statistic"))),
       m_add(new QPushButton(tr("Point at c&ursor"))), m_remove(new QPushButton(tr("Remove las&t"))),
-      m_clear(new QPushButton(tr("&Clear"))), m_sentence(plainLabel()), m_table(new QTableWidget(3, 3))
+      m_clear(new QPushButton(tr("&Clear"))), m_sentence(plainLabel()), m_table(new QTableWidget(3, 3)),
+      m_comparison(this, &HandLinePanel::question, compare, &HandLinePanel::show)
 {
     m_draw->setCheckable(true);
     m_draw->setToolTip(
@@ -127,13 +128,12 @@ void HandLinePanel::connectInputs()
         if (const auto &cursor = m_document.viewport().cursor())
             m_line->add(*cursor);
     });
-    connect(m_line, &HandLine::changed, this, &HandLinePanel::update);
-    connect(&m_document, &Document::analysisChanged, this, &HandLinePanel::update);
+    m_comparison.askAt(*m_line, &HandLine::changed);
+    m_comparison.askAt(m_document, &Document::analysisChanged);
     connect(&m_document, &Document::opened, this, [this] {
         m_line->clear();
         m_cover->setChecked(false);
     });
-    connect(&m_runner, &JobRunner::finished, this, &HandLinePanel::settled);
 }
 
 QString HandLinePanel::sentence() const
@@ -141,9 +141,10 @@ QString HandLinePanel::sentence() const
     return m_sentence->text();
 }
 
-HandLinePanel::Comparison HandLinePanel::compare(const Analysis &analysis, const std::vector<PolylinePoint> &line,
-                                                 const RunContext &context)
+HandLinePanel::Comparison HandLinePanel::compare(const std::shared_ptr<const Analysis> &shown,
+                                                 const std::vector<PolylinePoint> &line, const RunContext &context)
 {
+    const Analysis &analysis = *shown;
     Comparison result;
     const std::vector<PathCell> own = cellsAlong(analysis, line);
     result.own = evidenceAlong(analysis, own, context);
@@ -182,31 +183,24 @@ HandLinePanel::Comparison HandLinePanel::compare(const Analysis &analysis, const
     return result;
 }
 
-void HandLinePanel::update()
+HandLinePanel::Asking::Question HandLinePanel::question() const
 {
-    const auto analysis = m_document.lineAnalysis();
-    if (!analysis || m_line->points().empty()) {
-        m_comparison.reset();
-        m_table->clearContents();
-        showSentence();
-        emit settled();
-        return;
-    }
     std::vector<PolylinePoint> line;
     for (const Viewport::Point &point : m_line->points())
         line.push_back({point.seconds, point.hz});
-    m_runner.start([this, analysis, line = std::move(line)](const RunContext &context) -> JobRunner::Delivery {
-        const Comparison comparison = compare(*analysis, line, context);
-        return [this, comparison] { show(comparison); };
-    });
+    const auto analysis = m_document.lineAnalysis();
+    return Asking::questionIf(analysis && !line.empty(), {}, analysis, line);
 }
 
-void HandLinePanel::show(const Comparison &comparison)
+void HandLinePanel::show()
 {
-    m_comparison = comparison;
-    const PathEvidence *rows[] = {&comparison.own, &comparison.ownThere, &comparison.detector};
+    showSentence();
+    const Comparison *both = comparison();
+    if (!both)
+        return m_table->clearContents();
+    const PathEvidence *rows[] = {&both->own, &both->ownThere, &both->detector};
     for (int row = 0; row < 3; ++row) {
-        const bool isShown = row == 0 || (comparison.track && !isCovered());
+        const bool isShown = row == 0 || (both->track && !isCovered());
         const QString texts[] = {QString::number(rows[row]->frames), numberText(rows[row]->logLikelihoodRatio, 1),
                                  snrText(*rows[row])};
         for (int column = 0; column < 3; ++column) {
@@ -215,14 +209,13 @@ void HandLinePanel::show(const Comparison &comparison)
             m_table->setItem(row, column, item);
         }
     }
-    showSentence();
 }
 
 void HandLinePanel::showSentence()
 {
-    if (!m_comparison)
+    if (!comparison())
         return m_sentence->setText(m_document.frameKind().handLineHint);
-    const Comparison &both = *m_comparison;
+    const Comparison &both = *comparison();
     if (isCovered())
         return m_sentence->setText(
             tr("Your line collects %1 nat in %2 frames. Press Reveal to compare it with the detector.")
@@ -254,9 +247,7 @@ void HandLinePanel::setCovered(bool isCovered)
     }
     m_cover->setChecked(isCovered);
     m_cover->setText(isCovered ? tr("Reveal the &statistic") : tr("Cover the &statistic"));
-    if (m_comparison)
-        show(*m_comparison);
-    showSentence();
+    show();
 }
 
 /// While hidden it neither takes clicks nor covers anything.

@@ -1,12 +1,10 @@
 #pragma once
 
-#include "app/base/JobRunner.h"
+#include "app/base/Inquiry.h"
 #include "app/document/Document.h"
 #include "inspect/pathEvidence.h"
 
 #include <QWidget>
-
-#include <optional>
 
 class QLabel;
 class QPushButton;
@@ -47,12 +45,11 @@ public:
 
     HandLine &line() { return *m_line; }
     bool isCovered() const { return m_covers[0] != nullptr; }
-    bool isBusy() const { return m_runner.isRunning(); }
-    const std::optional<Comparison> &comparison() const { return m_comparison; }
+    const Comparison *comparison() const { return m_comparison.answer(); } ///< null: none
     QString sentence() const;
 
     /// Throws Cancelled.
-    static Comparison compare(const Analysis &analysis, const std::vector<PolylinePoint> &line,
+    static Comparison compare(const std::shared_ptr<const Analysis> &analysis, const std::vector<PolylinePoint> &line,
                               const RunContext &context = {});
 
     QSize sizeHint() const override { return {320, 300}; }
@@ -60,17 +57,16 @@ public:
 public slots:
     void setCovered(bool isCovered);
 
-signals:
-    void settled();
-
 protected:
     void hideEvent(QHideEvent *event) override;
 
 private:
+    using Asking = Inquiry<Comparison, std::shared_ptr<const Analysis>, std::vector<PolylinePoint>>;
+
+    Asking::Question question() const;
     void buildTable();
     void connectInputs();
-    void update();
-    void show(const Comparison &comparison);
+    void show();
     void showSentence();
 
     Document &m_document;
@@ -84,8 +80,7 @@ private:
     QLabel *m_sentence;
     QTableWidget *m_table;
     QWidget *m_covers[2]{nullptr, nullptr}; ///< over the statistic and its chart
-    std::optional<Comparison> m_comparison;
-    JobRunner m_runner; ///< last, so that its jobs end first
+    Asking m_comparison;
 };
 
 } // namespace faintline

@@ -98,20 +98,11 @@ LatencyPanel::LatencyPanel(const Document &document, QWidget *parent)
     connect(&m_runner, &JobRunner::progressed, this, [this](double fraction, const QString &what) {
         m_sentence->setText(tr("%1, %2 %").arg(what).arg(int(100.0 * fraction)));
     });
-    const auto end = [this] {
-        m_button->setText(tr("&Measure"));
-        emit settled();
-    };
-    connect(&m_runner, &JobRunner::started, this, [this] { m_button->setText(tr("&Stop")); });
-    connect(&m_runner, &JobRunner::finished, this, end);
-    connect(&m_runner, &JobRunner::cancelled, this, [this, end] {
-        m_sentence->setText(tr("Stopped."));
-        end();
-    });
-    connect(&m_runner, &JobRunner::failed, this, [this, end](const Error &error) {
-        m_sentence->setText(messageText(error.what()));
-        end();
-    });
+    connect(&m_runner, &JobRunner::busyChanged, this,
+            [this](bool isBusy) { m_button->setText(isBusy ? tr("&Stop") : tr("&Measure")); });
+    connect(&m_runner, &JobRunner::cancelled, this, [this] { m_sentence->setText(tr("Stopped.")); });
+    connect(&m_runner, &JobRunner::failed, this,
+            [this](const Error &error) { m_sentence->setText(messageText(error.what())); });
     follow();
 }
 

@@ -33,9 +33,6 @@ public:
 public slots:
     void start(int runs);
 
-signals:
-    void settled();
-
 private:
     void follow();
     void show(const std::vector<TrackScore> &scores, Index longest, double threshold);
@@ -46,7 +43,7 @@ private:
     QLabel *m_sentence;
     ChartPlot *m_pd;
     ChartPlot *m_histogram;
-    JobRunner m_runner; ///< last, so that its jobs end first
+    JobRunner m_runner{this}; ///< last, so that its jobs end first
 };
 
 } // namespace faintline

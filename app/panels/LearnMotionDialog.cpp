@@ -38,7 +38,11 @@ namespace {
 LearnMotionDialog::LearnMotionDialog(std::shared_ptr<const Analysis> analysis, AnalysisController &controller,
                                      QWidget *parent)
     : QDialog(parent), m_analysis(std::move(analysis)), m_controller(controller),
-      m_words(new QLabel(tr("Learning from the tracks …"))), m_progress(new QProgressBar)
+      m_words(new QLabel(tr("Learning from the tracks …"))), m_progress(new QProgressBar),
+      m_motion(
+          this, [this] { return m_motion.questionIf(true, {}, m_analysis); },
+          [](const auto &learnedFrom, const RunContext &context) { return learnMotion(*learnedFrom, context); },
+          &LearnMotionDialog::show)
 {
     setWindowTitle(tr("Learn motion from tracks"));
     m_words->setObjectName(QStringLiteral("learnedMotion"));
@@ -58,24 +62,20 @@ LearnMotionDialog::LearnMotionDialog(std::shared_ptr<const Analysis> analysis, A
 
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     connect(buttons, &QDialogButtonBox::accepted, this, &LearnMotionDialog::apply);
-    connect(&m_runner, &JobRunner::progressed, this,
+    connect(&m_motion, &JobRunner::progressed, this,
             [this](double fraction, const QString &) { m_progress->setValue(int(1000.0 * fraction)); });
-    connect(&m_runner, &JobRunner::finished, this, &LearnMotionDialog::settled);
-    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
-        m_progress->hide();
-        m_words->setText(messageText(error.why()).toHtmlEscaped());
-        emit settled();
-    });
-    m_runner.start([this, learnedFrom = m_analysis](const RunContext &context) -> JobRunner::Delivery {
-        return [this, motion = learnMotion(*learnedFrom, context)] { show(motion); };
-    });
+    connect(&m_motion, &JobRunner::failed, this,
+            [this](const Error &error) { m_words->setText(messageText(error.why()).toHtmlEscaped()); });
+    m_motion.ask();
 }
 
-void LearnMotionDialog::show(const LearnedMotion &motion)
+void LearnMotionDialog::show(const LearnedMotion *learned)
 {
-    m_motion = motion;
     m_progress->hide();
-    m_apply->setEnabled(true);
+    m_apply->setEnabled(learned);
+    if (!learned)
+        return;
+    const LearnedMotion &motion = *learned;
     const QString learnedFrom =
         tr("From %n track(s), %1 frames.", nullptr, int(motion.tracks)).arg(motion.frames, 0, 'f', 0);
     const QString table = row(QString(), tr("<b>present</b>"), tr("<b>learned</b>"))
@@ -93,7 +93,7 @@ void LearnMotionDialog::show(const LearnedMotion &motion)
 
 void LearnMotionDialog::apply()
 {
-    m_controller.setSettings(withLearnedMotion(*m_analysis, *m_motion), tr("Apply learned motion"));
+    m_controller.setSettings(withLearnedMotion(*m_analysis, *m_motion.answer()), tr("Apply learned motion"));
     accept();
 }
 

@@ -72,17 +72,11 @@ NoiseCheck::NoiseCheck(const Document &document, AnalysisController &controller,
             m_controller.setSettings(*after, tr("Correct the threshold"));
     });
     connect(&check, &RecordingCheck::changed, this, &NoiseCheck::refresh);
-    connect(&check, &RecordingCheck::settled, this, &NoiseCheck::settled);
     connect(&check, &RecordingCheck::countProgressed, this, [this](double fraction, const QString &what) {
         m_progress->setValue(int(std::lround(1000.0 * fraction)));
         m_progress->setToolTip(what);
     });
     refresh();
-}
-
-bool NoiseCheck::isBusy() const
-{
-    return m_check.isBusy();
 }
 
 void NoiseCheck::toggle()

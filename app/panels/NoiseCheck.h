@@ -27,17 +27,11 @@ public:
     NoiseCheck(const Document &document, AnalysisController &controller, RecordingCheck &check,
                QWidget *parent = nullptr);
 
-    bool isBusy() const;
-
     /// Starts or stops counting.
     void toggle();
     /// Shows the result of a count and offers the correction.
     void show(const SurrogateCount &count);
     using QWidget::show;
-
-signals:
-    /// No count or check is running any more.
-    void settled();
 
 private:
     void refresh();

@@ -1,6 +1,5 @@
 #include "app/panels/NoiseFitPanel.h"
 
-#include "app/base/VisibilityWatcher.h"
 #include "app/base/readingTable.h"
 #include "app/document/Document.h"
 #include "plan/Calibration.h"
@@ -84,10 +83,16 @@ namespace {
 
 NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_sentence(plainLabel()), m_plot(new ChartPlot),
-      m_table(new QTableWidget(0, 4)), m_sight(new VisibilityWatcher(*this))
+      m_table(new QTableWidget(0, 4)),
+      m_fit(
+          this,
+          [this] {
+              return m_fit.questionIf(bool(m_document.analysis()), tr("Open a recording to measure its noise."),
+                                      m_document.analysis());
+          },
+          measure, &NoiseFitPanel::show)
 {
     m_sentence->setWordWrap(true);
-    m_sentence->setText(tr("Open a recording to measure its noise."));
     m_sentence->setContentsMargins(8, 6, 8, 4);
     m_plot->setEmptySentence(tr("Quantiles of the noise appear here."));
     m_table->setHorizontalHeaderLabels({tr("Band"), tr("Mean"), tr("KS distance"), tr("Pfa")});
@@ -111,16 +116,10 @@ NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
     layout->addWidget(m_sentence);
     layout->addWidget(splitter, 1);
 
-    connect(m_sight, &VisibilityWatcher::came, this, &NoiseFitPanel::measure);
-    connect(&document, &Document::analysisChanged, this, &NoiseFitPanel::measure);
-    connect(&m_runner, &JobRunner::progressed, this, [this](double fraction, const QString &what) {
-        m_sentence->setText(tr("%1, %2 %").arg(what).arg(int(100.0 * fraction)));
-    });
-    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
-        m_sentence->setText(messageText(error.what()));
-        emit settled();
-    });
-    connect(&m_runner, &JobRunner::finished, this, &NoiseFitPanel::settled);
+    m_fit.watch(*this);
+    m_fit.sayIn(*m_sentence);
+    m_fit.askAt(document, &Document::opened, &Document::analysisChanged);
+    m_fit.ask();
 }
 
 QString NoiseFitPanel::sentence() const
@@ -128,29 +127,27 @@ QString NoiseFitPanel::sentence() const
     return m_sentence->text();
 }
 
-void NoiseFitPanel::measure()
+NoiseFitPanel::Fit NoiseFitPanel::measure(const std::shared_ptr<const Analysis> &analysis, const RunContext &context)
 {
-    const auto &analysis = m_document.analysis();
-    if (!analysis || !m_sight->isOn() || m_measured == analysis)
-        return;
-    m_measured = analysis;
-    m_runner.start([this, analysis](const RunContext &context) -> JobRunner::Delivery {
-        Fit fit{analysis, {}, {}};
-        const FrameGeometry geometry =
-            analysis->recording ? faintline::frameGeometry(analysis->settings.spectrogram) : FrameGeometry();
-        fit.bands = fitNoise(*analysis->frames, {bandCount, mostCells, blindCells(*analysis)}, geometry,
-                             context.part(0.0, 0.4));
-        if (analysis->settings.model.motion
-            == Motion::Slopes) // a sonar's targets move on two axes, these cells lie on one
-            fit.pfa = misfitPfa(fit.bands, analysis->settings,
-                                std::max(rarest, analysis->calibration->exceedanceAt(analysis->threshold)),
-                                context.part(0.4, 1.0));
-        return [this, fit = std::move(fit)] { show(fit); };
-    });
+    Fit fit{analysis, {}, {}};
+    const FrameGeometry geometry =
+        analysis->recording ? faintline::frameGeometry(analysis->settings.spectrogram) : FrameGeometry();
+    fit.bands =
+        fitNoise(*analysis->frames, {bandCount, mostCells, blindCells(*analysis)}, geometry, context.part(0.0, 0.4));
+    if (analysis->settings.model.motion == Motion::Slopes) // a sonar's targets move on two axes, these cells lie on one
+        fit.pfa = misfitPfa(fit.bands, analysis->settings,
+                            std::max(rarest, analysis->calibration->exceedanceAt(analysis->threshold)),
+                            context.part(0.4, 1.0));
+    return fit;
 }
 
-void NoiseFitPanel::show(const Fit &fit)
+void NoiseFitPanel::show()
 {
+    if (!m_fit.answer()) {
+        m_plot->setChart({});
+        return m_table->setRowCount(0);
+    }
+    const Fit &fit = *m_fit.answer();
     const Axis &axis = fit.analysis->grid().axes.back();
     m_plot->setChart(chartOf(fit.bands, axis));
     m_table->setRowCount(int(fit.bands.size()));

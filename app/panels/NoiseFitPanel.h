@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/base/JobRunner.h"
+#include "app/base/Inquiry.h"
 #include "evaluate/comparison/noiseFit.h"
 
 #include <QWidget>
@@ -16,7 +16,6 @@ namespace faintline {
 struct Analysis;
 class ChartPlot;
 class Document;
-class VisibilityWatcher;
 
 /// Tests whether the selection's normalised noise follows the law on which thresholds are based, and the effect if it
 /// does not: quantiles against quantiles, Kolmogorov-Smirnov distance, and the false-alarm probability at the
@@ -28,15 +27,11 @@ class NoiseFitPanel : public QWidget
 public:
     explicit NoiseFitPanel(const Document &document, QWidget *parent = nullptr);
 
-    bool isBusy() const { return m_runner.isRunning(); }
     ChartPlot &plot() { return *m_plot; }
     QTableWidget *table() const { return m_table; }
     QString sentence() const;
 
     QSize sizeHint() const override { return {360, 420}; }
-
-signals:
-    void settled();
 
 private:
     struct Fit {
@@ -45,17 +40,15 @@ private:
         std::vector<MisfitPfa> pfa;
     };
 
-    void measure();
-    void show(const Fit &fit);
+    static Fit measure(const std::shared_ptr<const Analysis> &analysis, const RunContext &context);
+    void show();
     void say(const Fit &fit);
 
     const Document &m_document;
-    std::shared_ptr<const Analysis> m_measured; ///< or being measured
     QLabel *m_sentence;
     ChartPlot *m_plot;
     QTableWidget *m_table;
-    VisibilityWatcher *m_sight;
-    JobRunner m_runner; ///< last, so that its jobs end first
+    Inquiry<Fit, std::shared_ptr<const Analysis>> m_fit;
 };
 
 } // namespace faintline

@@ -1,6 +1,5 @@
 #include "app/panels/SpectrumPanel.h"
 
-#include "app/base/VisibilityWatcher.h"
 #include "app/document/Document.h"
 #include "widgets/base/familyWords.h"
 #include "widgets/plot/ChartPlot.h"
@@ -41,7 +40,13 @@ namespace {
 
 SpectrumPanel::SpectrumPanel(Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_level(new QComboBox), m_calibration(new QDoubleSpinBox),
-      m_plot(new ChartPlot), m_sight(new VisibilityWatcher(*this))
+      m_plot(new ChartPlot), m_spectra(
+                                 this, &SpectrumPanel::question,
+                                 [](const auto &analysis, double seconds, const Span &visible, SpectrumLevel level,
+                                    const RunContext &context) {
+                                     return spectraOf(*analysis, seconds, {visible.low, visible.high}, level, context);
+                                 },
+                                 &SpectrumPanel::show)
 {
     m_level->addItems({tr("dB over noise"), tr("dB re full scale²/Hz")});
     m_level->setAccessibleName(tr("Level of the spectrum"));
@@ -66,19 +71,11 @@ SpectrumPanel::SpectrumPanel(Document &document, QWidget *parent)
 
     connect(m_level, &QComboBox::activated, this, &SpectrumPanel::follow);
     connect(m_calibration, &QDoubleSpinBox::valueChanged, this, &SpectrumPanel::show);
-    connect(m_sight, &VisibilityWatcher::came, this, &SpectrumPanel::follow);
+    connect(&document, &Document::opened, this, &SpectrumPanel::follow);
     connect(&document, &Document::analysisChanged, this, &SpectrumPanel::follow);
-    connect(&document, &Document::opened, this, [this] {
-        m_spectra = {};
-        m_plot->setChart({});
-    });
-    connect(&document.viewport(), &Viewport::cursorChanged, this, &SpectrumPanel::follow);
-    connect(&document.viewport(), &Viewport::spanChanged, this, &SpectrumPanel::follow);
     connect(&document.viewport(), &Viewport::scaleChanged, this, &SpectrumPanel::show);
-    connect(&document.viewport(), &Viewport::followingChanged, this, &SpectrumPanel::follow);
-    connect(&m_runner, &JobRunner::finished, this, &SpectrumPanel::settled);
-    connect(&m_runner, &JobRunner::cancelled, this, &SpectrumPanel::settled);
-    connect(&m_runner, &JobRunner::failed, this, &SpectrumPanel::settled);
+    m_spectra.watch(*this);
+    m_spectra.askAt(document.viewport(), &Viewport::cursorChanged, &Viewport::spanChanged, &Viewport::followingChanged);
     follow();
 }
 
@@ -91,28 +88,27 @@ void SpectrumPanel::follow()
 {
     m_level->setEnabled(!m_document.isEmpty() && m_document.recording());
     m_calibration->setVisible(chosenLevel() == SpectrumLevel::Density);
-    if (!m_sight->isOn() || (m_document.isLive() && m_document.viewport().isFollowing()))
-        return; // a picture that moves is read when it is held
+    m_spectra.ask();
+}
+
+SpectrumPanel::Asking::Question SpectrumPanel::question() const
+{
+    if (m_document.isLive() && m_document.viewport().isFollowing())
+        return {}; // a picture that moves is read when it is held
     const Span visible = m_document.viewport().time();
     const auto analysis = m_document.inspectedUntil(visible.high);
     if (!analysis)
-        return;
+        return m_document.isLive() ? Asking::Question() : QString();
     const auto &cursor = m_document.viewport().cursor();
-    const double seconds = cursor ? cursor->seconds : visible.middle();
-    const SpectrumLevel level = m_document.recording() ? chosenLevel() : SpectrumLevel::OverNoise;
-    m_runner.start([this, analysis, visible, seconds, level](const RunContext &context) -> JobRunner::Delivery {
-        Spectra spectra = spectraOf(*analysis, seconds, {visible.low, visible.high}, level, context);
-        return [this, spectra = std::move(spectra)]() mutable {
-            m_spectra = std::move(spectra);
-            show();
-        };
-    });
+    return std::tuple(analysis, cursor ? cursor->seconds : visible.middle(), visible,
+                      m_document.recording() ? chosenLevel() : SpectrumLevel::OverNoise);
 }
 
 void SpectrumPanel::show()
 {
-    if (m_spectra.position.empty())
-        return;
+    const Spectra *spectra = m_spectra.answer();
+    if (!spectra)
+        return m_plot->setChart({});
     const bool isDensity = chosenLevel() == SpectrumLevel::Density && m_document.recording();
     const double added = isDensity ? m_calibration->value() : 0.0;
     const Span band = this->band();
@@ -125,8 +121,8 @@ void SpectrumPanel::show()
                 {}};
     const auto analysis = m_document.lineAnalysis();
     const std::string rest = analysis && analysis->unsubtracted ? ", strong lines subtracted" : "";
-    chart.curves.push_back(curveOf("at the cursor" + rest, m_spectra.position, m_spectra.frame, band, added));
-    chart.curves.push_back(curveOf("mean of the visible part" + rest, m_spectra.position, m_spectra.mean, band, added));
+    chart.curves.push_back(curveOf("at the cursor" + rest, spectra->position, spectra->frame, band, added));
+    chart.curves.push_back(curveOf("mean of the visible part" + rest, spectra->position, spectra->mean, band, added));
     m_plot->setChart(chart);
     markTeeth();
 }

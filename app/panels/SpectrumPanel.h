@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/base/JobRunner.h"
+#include "app/base/Inquiry.h"
 #include "inspect/spectra.h"
 #include "widgets/base/Span.h"
 
@@ -13,7 +13,6 @@ namespace faintline {
 
 class ChartPlot;
 class Document;
-class VisibilityWatcher;
 
 /// The spectrum at the cursor, and the mean over the visible time and band: over the noise, or as a density in dB re
 /// full scale²/Hz, to which a calibration is added. For a family of lines it covers the band of its members, with marks
@@ -25,16 +24,16 @@ class SpectrumPanel : public QWidget
 public:
     explicit SpectrumPanel(Document &document, QWidget *parent = nullptr);
 
-    bool isBusy() const { return m_runner.isRunning(); }
     ChartPlot &plot() { return *m_plot; }
     QDoubleSpinBox *calibration() const { return m_calibration; }
 
     QSize sizeHint() const override { return {360, 300}; }
 
-signals:
-    void settled();
-
 private:
+    /// At the cursor's time, and the mean of the visible time.
+    using Asking = Inquiry<Spectra, std::shared_ptr<const Analysis>, double, Span, SpectrumLevel>;
+
+    Asking::Question question() const;
     void follow();
     void show();
     Span band() const;
@@ -45,9 +44,7 @@ private:
     QComboBox *m_level;
     QDoubleSpinBox *m_calibration;
     ChartPlot *m_plot;
-    VisibilityWatcher *m_sight;
-    Spectra m_spectra;  ///< displayed, without the calibration
-    JobRunner m_runner; ///< last, so that its jobs end first
+    Asking m_spectra; ///< without the calibration
 };
 
 } // namespace faintline

@@ -19,6 +19,7 @@ struct StateCut {
         StateSlice slice; ///< its axes; the other ones are fixed at the position
         std::size_t model = 0;
         bool isMaximised = false; ///< over the axes that are not shown; otherwise they are fixed at the position
+        bool operator==(const Wanted &) const = default;
     };
 
     StateSlice slice;

@@ -1,6 +1,5 @@
 #include "app/panels/StateSlicePanel.h"
 
-#include "app/base/VisibilityWatcher.h"
 #include "app/panels/LawPanel.h"
 #include "plan/chain.h"
 #include "widgets/base/labelText.h"
@@ -45,8 +44,16 @@ StateSlicePanel::StateSlicePanel(Document &document, PingViewports &viewports, Q
     : QWidget(parent), m_document(document), m_viewports(viewports), m_rows(new QComboBox), m_columns(new QComboBox),
       m_others(new QComboBox), m_model(new QComboBox), m_sentence(plainLabel()),
       m_view(new WaterfallView(tr("States (nat)"))), m_tabs(new QTabBar), m_pane(new QWidget),
-      m_law(new LawPanel(document)), m_sight(new VisibilityWatcher(*this)),
-      m_marks(std::make_unique<SliceMarks>(*m_view))
+      m_law(new LawPanel(document)), m_marks(std::make_unique<SliceMarks>(*m_view)),
+      m_cut(
+          this, &StateSlicePanel::question,
+          [this](const auto &analysis, const StateCut::Wanted &wanted, const RunContext &context) {
+              if (!m_replay || m_replay->analysis() != analysis)
+                  m_replay = std::make_shared<StateReplay>(
+                      analysis, memoryShares::orSome(memoryShares::stateReplay, 8 * bytesOfStates(*analysis)));
+              return cutThrough(*m_replay, wanted, context);
+          },
+          &StateSlicePanel::show)
 {
     m_sentence->setWordWrap(true);
     m_sentence->setTextFormat(Qt::PlainText);
@@ -128,14 +135,13 @@ void StateSlicePanel::connectChoices()
 {
     connect(m_rows, &QComboBox::activated, this, [this] { chooseAxes(*m_rows, *m_columns); });
     connect(m_columns, &QComboBox::activated, this, [this] { chooseAxes(*m_columns, *m_rows); });
-    for (QComboBox *box : {m_others, m_model})
-        connect(box, &QComboBox::currentIndexChanged, this, &StateSlicePanel::update);
-    connect(m_sight, &VisibilityWatcher::came, this, &StateSlicePanel::update);
+    for (const QComboBox *box : {m_others, m_model})
+        m_cut.askAt(*box, &QComboBox::currentIndexChanged);
     connect(&m_viewport, &Viewport::cursorChanged, this, &StateSlicePanel::followCursor);
     connect(&m_viewport, &Viewport::spanChanged, this, &StateSlicePanel::giveFrequencies);
     // The order in which the view gets its size and its picture must not matter.
     connect(m_view, &WaterfallView::histogramChanged, this, [this] {
-        if (m_cut && !m_isShowing && m_view->range() == m_givenRange)
+        if (cut() && !m_isShowing && m_view->range() == m_givenRange)
             chooseRange();
     });
     connect(m_tabs, &QTabBar::currentChanged, this, &StateSlicePanel::layOut);
@@ -146,20 +152,12 @@ void StateSlicePanel::connectDocument()
 {
     connect(&m_document, &Document::analysisChanged, this, &StateSlicePanel::fillAxes);
     connect(&m_document, &Document::shownEventsChanged, this, &StateSlicePanel::placeMarks);
-    connect(&m_viewports, &PingViewports::placeChanged, this, &StateSlicePanel::update);
-    connect(&m_document.viewport(), &Viewport::cursorChanged, this, [this] {
-        if (isOfLines())
-            update();
-    });
     connect(&m_document.viewport(), &Viewport::spanChanged, this, &StateSlicePanel::takeFrequencies);
-    connect(&m_runner, &JobRunner::progressed, this, [this](double fraction, const QString &what) {
-        m_sentence->setText(tr("%1, %2 %").arg(what).arg(int(100.0 * fraction)));
-    });
-    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
-        m_sentence->setText(messageText(error.what()));
-        emit settled();
-    });
-    connect(&m_runner, &JobRunner::finished, this, &StateSlicePanel::settled);
+    m_cut.watch(*this);
+    m_cut.sayIn(*m_sentence);
+    m_cut.askAt(m_document, &Document::opened);
+    m_cut.askAt(m_viewports, &PingViewports::placeChanged);
+    m_cut.askAt(m_document.viewport(), &Viewport::cursorChanged);
 }
 
 bool StateSlicePanel::isOfLines() const
@@ -193,7 +191,7 @@ void StateSlicePanel::setAxes(int rows, int columns)
 {
     m_rows->setCurrentIndex(rows);
     m_columns->setCurrentIndex(columns);
-    update();
+    m_cut.ask();
 }
 
 /// Keeps the two axes different: an axis that takes the other's gives its own in exchange.
@@ -202,7 +200,7 @@ void StateSlicePanel::chooseAxes(QComboBox &changed, QComboBox &other)
     const int before = int(&changed == m_rows ? m_shownAxes.first : m_shownAxes.second);
     if (changed.currentIndex() == other.currentIndex())
         other.setCurrentIndex(before);
-    update();
+    m_cut.ask();
 }
 
 void StateSlicePanel::fillAxes()
@@ -213,17 +211,8 @@ void StateSlicePanel::fillAxes()
     m_model->setVisible(hasChoice() && analysis->modelCount() > 1);
     layOut();
     m_shownAxes = {0, 0};
-    m_cut.reset();
-    if (isOfLines())
-        return update();
-    if (!hasChoice()) {
-        m_runner.cancel();
-        m_view->setPicture(nullptr, {});
-        placeMarks();
-        return m_sentence->clear();
-    }
-    const std::vector<Axis> axes = stateAxes(*analysis);
-    if (m_rows->count() != std::ssize(axes)) {
+    const std::vector<Axis> axes = hasChoice() ? stateAxes(*analysis) : std::vector<Axis>();
+    if (hasChoice() && m_rows->count() != std::ssize(axes)) {
         for (QComboBox *box : {m_rows, m_columns}) {
             const QSignalBlocker blocker(box);
             box->clear();
@@ -233,7 +222,7 @@ void StateSlicePanel::fillAxes()
         m_rows->setCurrentIndex(0);
         m_columns->setCurrentIndex(2); // range × range rate, which shows a target's motion
     }
-    update();
+    m_cut.ask();
 }
 
 void StateSlicePanel::resizeEvent(QResizeEvent *event)
@@ -257,38 +246,23 @@ void StateSlicePanel::layOut()
     m_sentence->setVisible(hasSlice);
 }
 
-/// The slice to be shown; empty if there is none.
-std::optional<StateCut::Wanted> StateSlicePanel::wanted() const
+StateSlicePanel::Asking::Question StateSlicePanel::question() const
 {
     const auto &analysis = m_document.analysis();
-    const auto at = analysis ? cursorOf(m_document, m_viewports) : std::nullopt;
+    if (!hasChoice() && !isOfLines())
+        return QString();
+    const auto at = cursorOf(m_document, m_viewports);
     if (!at)
         return {};
     const std::size_t model = !analysis->isBank() ? 0 : std::size_t(m_model->currentIndex());
     const int rows = m_rows->currentIndex();
     const int columns = m_columns->currentIndex();
     if (isOfLines())
-        return StateCut::Wanted{*at, {1, 0, {}}, model, isMaximised()}; // slope × frequency
-    if (!hasChoice() || rows == columns)
+        return std::tuple(analysis, StateCut::Wanted{*at, {1, 0, {}}, model, isMaximised()}); // slope × frequency
+    if (rows == columns)
         return {};
-    return StateCut::Wanted{*at, {std::size_t(rows), std::size_t(columns), {}}, model, isMaximised()};
-}
-
-void StateSlicePanel::update()
-{
-    const std::optional<StateCut::Wanted> cut = wanted();
-    if (!m_sight->isOn() || !cut)
-        return;
-    m_runner.start(
-        [this, analysis = m_document.analysis(), cut = *cut](const RunContext &context) -> JobRunner::Delivery {
-            if (!m_replay || m_replay->analysis() != analysis)
-                m_replay = std::make_shared<StateReplay>(
-                    analysis, memoryShares::orSome(memoryShares::stateReplay, 8 * bytesOfStates(*analysis)));
-            return [this, analysis, result = cutThrough(*m_replay, cut, context)] {
-                if (m_document.analysis() == analysis) // another document may be open by now
-                    show(result);
-            };
-        });
+    return std::tuple(analysis,
+                      StateCut::Wanted{*at, {std::size_t(rows), std::size_t(columns), {}}, model, isMaximised()});
 }
 
 /// A click in the slice goes there with everybody, as far as a slice has places.
@@ -300,7 +274,9 @@ void StateSlicePanel::followCursor()
         const auto &before = m_document.viewport().cursor();
         if (before)
             m_document.viewport().setCursor({before->seconds, m_viewport.cursor()->hz});
-        return update(); // back to the cell's best slope
+        if (!m_cut.isRunning())
+            show(); // back to the cell's best slope
+        return;
     }
     PingViewports::Place place = m_viewports.place();
     const auto take = [&](std::size_t axis, double value) {
@@ -325,15 +301,19 @@ void StateSlicePanel::showSpans(const StateCut &cut, const Viewport::Point &curs
         m_viewport.zoomTo(firstSpan(rows, cursor.seconds), firstSpan(columns, cursor.hz));
 }
 
-void StateSlicePanel::show(const StateCut &cut)
+void StateSlicePanel::show()
 {
     const QScopedValueRollback showing(m_isShowing, true);
+    if (!cut()) {
+        m_view->setPicture(nullptr, {});
+        return placeMarks();
+    }
+    const StateCut &cut = *this->cut();
     const std::pair axes{cut.slice.rows, cut.slice.columns};
     const Viewport::Point cursor{cut.values[axes.first], cut.values[axes.second]};
     if (axes != m_shownAxes)
         showSpans(cut, cursor);
     m_shownAxes = axes;
-    m_cut = cut;
     m_viewport.setCursor(cursor);
     m_viewport.reveal({{cursor.seconds, cursor.seconds}, {cursor.hz, cursor.hz}});
     m_view->setThreshold(m_document.shownThreshold());
@@ -363,16 +343,16 @@ void StateSlicePanel::chooseRange()
 {
     m_view->setAutomaticRange();
     m_view->setRange(m_view->range().low,
-                     std::max(m_view->range().high, isOfLines() ? m_cut->scoreAtCursor() : m_cut->best));
+                     std::max(m_view->range().high, isOfLines() ? cut()->scoreAtCursor() : cut()->best));
     m_givenRange = m_view->range();
 }
 
 /// The best of the states in view, and those of the tracks' paths that lie in the slice.
 void StateSlicePanel::placeMarks()
 {
-    if (!m_cut || !m_document.analysis())
+    if (!cut())
         return m_marks->clear();
-    m_marks->set(m_cut->bestIn(m_viewport.visible()), m_cut->pathsOf(m_document.shownTracks(), *m_document.analysis()));
+    m_marks->set(cut()->bestIn(m_viewport.visible()), cut()->pathsOf(m_document.shownTracks(), *m_document.analysis()));
 }
 
 /// Follows the frequencies shown in the waterfalls …

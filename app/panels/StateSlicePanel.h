@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/base/JobRunner.h"
+#include "app/base/Inquiry.h"
 #include "app/document/Document.h"
 #include "app/panels/StateCut.h"
 
@@ -15,7 +15,6 @@ class QTabBar;
 namespace faintline {
 
 class LawPanel;
-class VisibilityWatcher;
 class SliceMarks;
 class WaterfallView;
 
@@ -36,7 +35,6 @@ public:
     LawPanel &law() const { return *m_law; }
     const SliceMarks &marks() const { return *m_marks; }
     QString sentence() const;
-    bool isBusy() const { return m_runner.isRunning(); }
 
     /// Indices of the axes in `stateAxes`.
     void setAxes(int rows, int columns);
@@ -50,20 +48,22 @@ public:
 signals:
     /// The law of a rate's change was dragged.
     void lawRequested(const QString &field, const std::vector<double> &law);
-    void settled(); ///< the slice matches the cursor, or it failed
 
 protected:
     /// Places the law beside the slice, below it, or behind a tab, depending on the available room.
     void resizeEvent(QResizeEvent *event) override;
 
 private:
+    using Asking = Inquiry<StateCut, std::shared_ptr<const Analysis>, StateCut::Wanted>;
+
     QLayout *buildHead();
     void buildView();
     void connectChoices();
     void connectDocument();
     bool isOfLines() const;
     bool hasChoice() const; ///< of axes
-    std::optional<StateCut::Wanted> wanted() const;
+    Asking::Question question() const;
+    const StateCut *cut() const { return m_cut.answerAbout(m_document.analysis()); } ///< the displayed one
     void takeFrequencies();
     void giveFrequencies();
     void placeMarks();
@@ -72,10 +72,9 @@ private:
     void layOut();
     void fillAxes();
     void chooseAxes(QComboBox &changed, QComboBox &other);
-    void update();
     void followCursor();
     void showSpans(const StateCut &cut, const Viewport::Point &cursor);
-    void show(const StateCut &cut);
+    void show();
 
     Document &m_document;
     PingViewports &m_viewports;
@@ -89,16 +88,14 @@ private:
     QTabBar *m_tabs;
     QWidget *m_pane; ///< the slice and its colour bar
     LawPanel *m_law;
-    VisibilityWatcher *m_sight;
     QBoxLayout *m_body;
     std::unique_ptr<SliceMarks> m_marks;
-    std::optional<StateCut> m_cut; ///< the displayed one
     Viewport m_viewport;
     std::pair<std::size_t, std::size_t> m_shownAxes{0, 0};
     Span m_givenRange;                     ///< colour range as set by this panel
     bool m_isShowing = false;              ///< while the slice's own cursor is being placed
     std::shared_ptr<StateReplay> m_replay; ///< used by jobs only, one at a time
-    JobRunner m_runner;                    ///< last, so that its jobs end first
+    Asking m_cut;
 };
 
 } // namespace faintline

@@ -75,13 +75,21 @@ StraightenDialog::StraightenDialog(const Document &document, const Event &event,
     : QDialog(parent), m_analysis(document.analysis()), m_event(event), m_path(document.sourcePath()),
       m_provenance(provenance), m_method(new QComboBox), m_type(new QComboBox), m_sentence(plainLabel()),
       m_before(new ChartPlot), m_after(new ChartPlot), m_progress(new QProgressBar),
-      m_write(new QPushButton(tr("&Write recording…")))
+      m_write(new QPushButton(tr("&Write recording…"))),
+      m_preview(
+          this, [this] { return m_preview.questionIf(true, {}, m_analysis, choice()); },
+          [event](const auto &analysis, const StraightenChoice &chosen, const RunContext &context) {
+              const Straightened straight = straightened(*analysis, event, chosen);
+              return Spectra{straight, lineSpectrum(*analysis->recording, straight.before, context.part(0.0, 0.4)),
+                             lineSpectrum(*straight.recording, straight.after, context.part(0.4, 1.0))};
+          },
+          &StraightenDialog::show)
 {
     setWindowTitle(tr("Straighten the recording along event %1").arg(event.id));
     buildInputs();
     buildLayout();
     connectInputs();
-    follow();
+    m_preview.ask();
 }
 
 void StraightenDialog::buildInputs()
@@ -137,29 +145,16 @@ void StraightenDialog::buildLayout()
 
 void StraightenDialog::connectInputs()
 {
-    for (QDoubleSpinBox *box : {m_target, m_smoothing})
-        connect(box, &QDoubleSpinBox::valueChanged, this, &StraightenDialog::follow);
-    connect(m_method, &QComboBox::currentIndexChanged, this, &StraightenDialog::follow);
+    for (const QDoubleSpinBox *box : {m_target, m_smoothing})
+        m_preview.askAt(*box, &QDoubleSpinBox::valueChanged);
+    m_preview.askAt(*m_method, &QComboBox::currentIndexChanged);
     connect(m_write, &QPushButton::clicked, this, [this] { m_writer.isRunning() ? m_writer.cancel() : ask(); });
-    connect(&m_preview, &JobRunner::finished, this, &StraightenDialog::settled);
-    connect(&m_preview, &JobRunner::failed, this, [this](const Error &error) {
-        for (ChartPlot *chart : {m_before, m_after})
-            chart->setChart({}); // outdated by changed inputs
-        say(error);
-    });
     connect(&m_writer, &JobRunner::progressed, this,
             [this](double fraction, const QString &) { m_progress->setValue(int(1000.0 * fraction)); });
-    connect(&m_writer, &JobRunner::started, this, [this] { showWriting(true); });
-    connect(&m_writer, &JobRunner::finished, this, [this] { showWriting(false); });
-    connect(&m_writer, &JobRunner::cancelled, this, [this] {
-        showWriting(false);
-        m_sentence->setText(tr("Stopped; no file was written."));
-        emit settled();
-    });
-    connect(&m_writer, &JobRunner::failed, this, [this](const Error &error) {
-        showWriting(false);
-        say(error);
-    });
+    connect(&m_writer, &JobRunner::busyChanged, this, &StraightenDialog::showWriting);
+    connect(&m_writer, &JobRunner::cancelled, this,
+            [this] { m_sentence->setText(tr("Stopped; no file was written.")); });
+    connect(&m_writer, &JobRunner::failed, this, &StraightenDialog::say);
 }
 
 StraightenChoice StraightenDialog::choice() const
@@ -191,19 +186,6 @@ void StraightenDialog::showWriting(bool isWriting)
 void StraightenDialog::say(const Error &error)
 {
     m_sentence->setText(messageText(error.what()));
-    emit settled();
-}
-
-void StraightenDialog::follow()
-{
-    m_preview.start([this, analysis = m_analysis, event = m_event,
-                     chosen = choice()](const RunContext &context) -> JobRunner::Delivery {
-        Spectra spectra{straightened(*analysis, event, chosen), {}, {}};
-        const Straightened &straight = spectra.straightened;
-        spectra.before = lineSpectrum(*analysis->recording, straight.before, context.part(0.0, 0.4));
-        spectra.after = lineSpectrum(*straight.recording, straight.after, context.part(0.4, 1.0));
-        return [this, spectra = std::move(spectra)] { show(spectra); };
-    });
 }
 
 /// Shows the default target unless it is already known.
@@ -217,8 +199,14 @@ void StraightenDialog::showTarget(double hz)
     m_usualTarget = m_target->value();
 }
 
-void StraightenDialog::show(const Spectra &spectra)
+void StraightenDialog::show(const Spectra *made)
 {
+    if (!made) { // outdated by changed inputs
+        for (ChartPlot *chart : {m_before, m_after})
+            chart->setChart({});
+        return m_sentence->setText(m_preview.whyNot());
+    }
+    const Spectra &spectra = *made;
     showTarget(spectra.straightened.targetHz);
     const std::vector<double> &hz = spectra.straightened.curve.hz();
     const auto [least, most] = std::minmax_element(hz.begin(), hz.end());
@@ -299,7 +287,6 @@ void StraightenDialog::finish(const QString &path)
             return;
         self->m_sentence->setText(tr("Wrote %1.").arg(fileLabel(path)));
         emit self->written(path);
-        emit self->settled();
     });
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/base/JobRunner.h"
+#include "app/base/Inquiry.h"
 #include "inspect/straighten.h"
 
 #include <QDialog>
@@ -29,7 +29,6 @@ public:
     /// For an event of the document's analysis. Precondition: it analyses a recording.
     StraightenDialog(const Document &document, const Event &event, Provenance &provenance, QWidget *parent = nullptr);
 
-    bool isBusy() const { return m_preview.isRunning() || m_writer.isRunning(); }
     QString sentence() const;
     QDoubleSpinBox *target() const { return m_target; }
     QDoubleSpinBox *smoothing() const { return m_smoothing; }
@@ -42,7 +41,6 @@ public:
     void writeTo(const QString &path);
 
 signals:
-    void settled(); ///< spectra are current or the sentence says why not; or writing has ended
     void written(const QString &path);
 
 private:
@@ -56,8 +54,7 @@ private:
     void buildInputs();
     void buildLayout();
     void connectInputs();
-    void follow();
-    void show(const Spectra &spectra);
+    void show(const Spectra *spectra);
     void showTarget(double hz);
     void ask();
     void finish(const QString &path);
@@ -79,8 +76,8 @@ private:
     ChartPlot *m_after;
     QProgressBar *m_progress;
     QPushButton *m_write;
-    JobRunner m_preview; ///< runners last, so that their jobs end first
-    JobRunner m_writer;
+    JobRunner m_writer{this}; ///< last, as the preview, so that their jobs end first
+    Inquiry<Spectra, std::shared_ptr<const Analysis>, StraightenChoice> m_preview;
 };
 
 } // namespace faintline

@@ -48,12 +48,6 @@ SurveyPanel::SurveyPanel(const Document &document, const AnalysisController &con
     layout->addLayout(bottom);
     m_summary->setText(tr("Open a survey (.sqlite) with File > Open. The command faintline-cli survey creates one."));
 
-    const auto end = [this] { emit busyChanged(false); };
-    connect(&m_runner, &JobRunner::started, this, [this] { emit busyChanged(true); });
-    connect(&m_runner, &JobRunner::progressed, this, &SurveyPanel::progressed);
-    connect(&m_runner, &JobRunner::finished, this, end);
-    connect(&m_runner, &JobRunner::cancelled, this, end);
-    connect(&m_runner, &JobRunner::failed, this, end);
     connect(&m_runner, &JobRunner::failed, this, &SurveyPanel::failed);
     connect(&controller, &AnalysisController::settled, this, &SurveyPanel::reach);
     connect(m_table, &QTableView::activated, this, &SurveyPanel::activate);

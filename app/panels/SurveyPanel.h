@@ -25,7 +25,7 @@ public:
 
     /// Reads a survey file in the background, then shows it; ends with `opened` or `failed`.
     void open(const QString &path);
-    void cancel() { m_runner.cancel(); }
+    JobRunner &runner() { return m_runner; }
     /// Whether a file is opened by this panel, according to its name.
     static bool isSurvey(const QString &path);
 
@@ -37,8 +37,6 @@ public:
 
 signals:
     void opened();
-    void busyChanged(bool isBusy);
-    void progressed(double fraction, const QString &what);
     /// Requests opening a recording with the settings of the survey.
     void openRequested(const QString &path, const faintline::OpenOptions &options,
                        const faintline::AnalysisController::Adjust &adjust);
@@ -69,7 +67,7 @@ private:
         int event = 0;
     } m_wanted;
 
-    JobRunner m_runner; ///< last, so that its job ends first
+    JobRunner m_runner{this}; ///< last, so that its job ends first
 };
 
 } // namespace faintline

@@ -1,6 +1,5 @@
 #include "app/panels/WhyPanel.h"
 
-#include "app/base/VisibilityWatcher.h"
 #include "app/base/readingTable.h"
 #include "app/control/FramePlace.h"
 #include "app/document/Document.h"
@@ -19,7 +18,6 @@
 #include <QScrollArea>
 #include <QSplitter>
 #include <QTableWidget>
-#include <QTimer>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -29,7 +27,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr int pauseMs = 60;
+    constexpr int pauseMs = 60;                 ///< while the cursor moves
     constexpr std::size_t longestLadder = 2000; ///< steps; of a longer path the newest
 
     QString signedText(double value)
@@ -192,7 +190,14 @@ QString teethSentence(const std::vector<FamilyTooth> &teeth, const FamilySetting
 WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *parent)
     : QWidget(parent), m_document(document), m_viewports(viewports), m_sentence(plainLabel()), m_cure(plainLabel()),
       m_remedy(new QPushButton), m_plot(new ChartPlot), m_teeth(new QTableWidget), m_ladder(new QTableWidget),
-      m_sight(new VisibilityWatcher(*this)), m_pause(new QTimer(this))
+      m_why(
+          this, &WhyPanel::question,
+          [](const auto &analysis, double seconds, const auto &position, const RunContext &context) {
+              const Explanation explanation = explain(*analysis, seconds, position, context.part(0.0, 0.9));
+              return Reason{explanation, familyTeeth(*analysis, explanation, context.part(0.9, 0.95)),
+                            adviceOnCell(*analysis, explanation, context.part(0.95, 1.0))};
+          },
+          &WhyPanel::show)
 {
     m_sentence->setWordWrap(true);
     m_sentence->setTextFormat(Qt::PlainText);
@@ -202,7 +207,7 @@ WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *
     m_cure->setContentsMargins(8, 6, 8, 4);
     m_remedy->setObjectName(QStringLiteral("remedy"));
     m_remedy->setAccessibleName(tr("Remedy"));
-    connect(m_remedy, &QPushButton::clicked, this, [this] { emit remedyRequested(*m_advice); });
+    connect(m_remedy, &QPushButton::clicked, this, [this] { emit remedyRequested(*m_why.answer()->advice); });
     m_plot->setEmptySentence(tr("The evidence along the path appears here."));
     buildTables();
     auto *splitter = new QSplitter(Qt::Vertical);
@@ -230,25 +235,13 @@ WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *
     whole->setContentsMargins(0, 0, 0, 0);
     whole->addWidget(area);
 
-    invite();
-    m_pause->setSingleShot(true);
-    m_pause->setInterval(pauseMs);
-    connect(m_pause, &QTimer::timeout, this, &WhyPanel::explainCursor);
-    connect(m_sight, &VisibilityWatcher::came, this, &WhyPanel::follow);
-    connect(&document.viewport(), &Viewport::cursorChanged, this, &WhyPanel::follow);
-    connect(&viewports, &PingViewports::placeChanged, this, &WhyPanel::follow);
-    connect(&document, &Document::analysisChanged, this, &WhyPanel::follow);
-    connect(&document, &Document::opened, this, &WhyPanel::invite); // the last one was of another recording
-    connect(&m_runner, &JobRunner::progressed, this, [this](double fraction, const QString &what) {
-        constexpr qint64 longMs = 300;
-        if (m_began.elapsed() > longMs) // with millions of states, or late in a long recording
-            m_sentence->setText(tr("%1, %2 %").arg(what).arg(int(100.0 * fraction)));
-    });
-    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
-        m_sentence->setText(messageText(error.what()));
-        emit settled();
-    });
-    connect(&m_runner, &JobRunner::finished, this, &WhyPanel::settled);
+    m_why.setPause(pauseMs);
+    m_why.watch(*this);
+    m_why.sayIn(*m_sentence);
+    m_why.askAt(document, &Document::opened, &Document::analysisChanged);
+    m_why.askAt(document.viewport(), &Viewport::cursorChanged);
+    m_why.askAt(viewports, &PingViewports::placeChanged);
+    m_why.ask();
 }
 
 void WhyPanel::buildTables()
@@ -283,58 +276,21 @@ void WhyPanel::resizeEvent(QResizeEvent *event)
     QWidget::resizeEvent(event);
 }
 
-void WhyPanel::follow()
-{
-    if (!m_sight->isOn())
-        return;
-    m_runner.cancel(); // a result for the previous cell would be mistaken for this one's
-    m_pause->start();
-}
-
-/// Why there is no ladder.
-void WhyPanel::say(const QString &sentence)
-{
-    m_runner.cancel();
-    m_explanation.reset();
-    showCure({});
-    m_ladder->setRowCount(0);
-    m_teeth->hide();
-    m_plot->setChart({});
-    m_sentence->setText(sentence);
-    emit settled();
-}
-
-void WhyPanel::invite()
-{
-    say(tr("Click a cell to see why it was or was not detected."));
-}
-
-void WhyPanel::explainCursor()
+WhyPanel::Asking::Question WhyPanel::question() const
 {
     const auto at = cursorOf(m_document, m_viewports);
-    if (!at)
-        return emit settled();
+    if (!at || !(m_document.isLive() || m_document.analysis()))
+        return tr("Click a cell to see why it was or was not detected.");
     const auto analysis = m_document.isLive() ? m_document.inspectedUntil(at->seconds) : m_document.analysis();
     if (!analysis)
-        return m_document.isLive() ? say(tr("Other settings were in force there.")) : emit settled();
+        return tr("Other settings were in force there.");
     if (!std::holds_alternative<SmdSettings>(analysis->settings.detector))
-        return say(tr("Only the sequential Markov detector decides along a path; choose it to see why."));
-    m_began.start();
-    m_runner.start([this, analysis, at = *at](const RunContext &context) -> JobRunner::Delivery {
-        auto explanation = explain(*analysis, at.seconds, at.position, context.part(0.0, 0.9));
-        auto teeth = familyTeeth(*analysis, explanation, context.part(0.9, 0.95));
-        auto advice = adviceOnCell(*analysis, explanation, context.part(0.95, 1.0));
-        return [this, analysis, explanation = std::move(explanation), teeth = std::move(teeth),
-                advice = std::move(advice)] {
-            show(explanation, teeth, *analysis);
-            showCure(advice);
-        };
-    });
+        return tr("Only the sequential Markov detector decides along a path; choose it to see why.");
+    return std::tuple(analysis, at->seconds, at->position);
 }
 
 void WhyPanel::showCure(const std::optional<Advice> &advice)
 {
-    m_advice = advice;
     m_cure->setVisible(advice.has_value());
     m_remedy->setVisible(advice.has_value());
     if (!advice)
@@ -383,9 +339,17 @@ void WhyPanel::showTeeth(const std::vector<FamilyTooth> &teeth, const FamilySett
     }
 }
 
-void WhyPanel::show(const Explanation &explanation, const std::vector<FamilyTooth> &teeth, const Analysis &analysis)
+void WhyPanel::show()
 {
-    m_explanation = explanation;
+    if (!m_why.answer()) {
+        showCure({});
+        m_ladder->setRowCount(0);
+        m_teeth->hide();
+        return m_plot->setChart({});
+    }
+    const Analysis &analysis = *std::get<0>(m_why.answered());
+    const auto &[explanation, teeth, advice] = *m_why.answer();
+    showCure(advice);
     const Axis &time = analysis.time();
     const Grid &grid = analysis.grid();
     const StateSpace &space = spaceOf(explanation, analysis);

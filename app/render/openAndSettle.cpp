@@ -6,11 +6,10 @@
 #include "app/lessons/LessonGuide.h"
 #include "app/panels/ComparePanel.h"
 #include "app/panels/ExperimentsPanel.h"
-#include "app/panels/NoiseFitPanel.h"
 #include "app/panels/SurveyPanel.h"
 #include "app/panels/SweepPanel.h"
-#include "app/panels/WhyPanel.h"
 #include "app/render/settleViews.h"
+#include "app/views/WindowViews.h"
 #include "app/window/MainWindow.h"
 
 #include <QEventLoop>
@@ -65,19 +64,12 @@ namespace {
 AnalysisSettings openAndSettle(MainWindow &window, const RenderOptions &options)
 {
     const auto settingsOfB = std::make_shared<AnalysisSettings>();
-    QEventLoop loop;
-    std::optional<Error> failure;
-    QObject::connect(&window.controller(), &AnalysisController::failed, &loop,
-                     [&](const Error &error) { failure = error; });
-    QObject::connect(&window.controller(), &AnalysisController::settled, &loop, &QEventLoop::quit);
-    window.open(pathText(options.source), options.opening, [options, settingsOfB](AnalysisSettings &settings) {
+    const auto adjustBoth = [options, settingsOfB](AnalysisSettings &settings) {
         *settingsOfB = settings;
         adjust(*settingsOfB, options);
         adjust(settings, optionsOfA(options));
-    });
-    loop.exec();
-    if (failure)
-        throw *failure;
+    };
+    runAndSettle(window.controller(), [&] { window.open(pathText(options.source), options.opening, adjustBoth); });
     return *settingsOfB;
 }
 
@@ -85,22 +77,10 @@ void compareWithA(MainWindow &window, const AnalysisSettings &settings)
 {
     window.comparer().setMeasuringCost(false);
     window.comparePanel().keep();
-    QEventLoop loop;
-    std::optional<Error> failure;
-    QObject::connect(&window.controller(), &AnalysisController::failed, &loop,
-                     [&](const Error &error) { failure = error; });
-    QObject::connect(&window.controller(), &AnalysisController::settled, &loop, &QEventLoop::quit);
-    window.controller().setSettings(settings, QStringLiteral("B"));
-    if (window.controller().isBusy())
-        loop.exec();
-    if (failure)
-        throw *failure;
-    QEventLoop comparing;
-    QObject::connect(&window.comparer(), &Comparer::settled, &comparing, &QEventLoop::quit);
-    window.showCompare();
+    runAndSettle(window.controller(), [&] { window.controller().setSettings(settings, QStringLiteral("B")); });
+    window.showView(QStringLiteral("compare"));
     window.comparer().setActive(true);
-    if (window.comparer().isBusy())
-        comparing.exec();
+    settle(window.comparer());
 }
 
 void testScans(MainWindow &window, const RenderOptions &options)
@@ -139,26 +119,15 @@ void goThroughLesson(MainWindow &window, const RenderOptions &options)
     loop.exec();
     if (failure)
         throw *failure;
-    if (!window.why().visibleRegion().isEmpty())
-        explainCursor(window);
-    if (!window.noiseFit().visibleRegion().isEmpty())
-        measureNoise(window);
+    for (const QString &view : {QStringLiteral("why"), QStringLiteral("noisefit")})
+        if (!window.views().named(view)->visibleRegion().isEmpty())
+            showAndSettle(window, view);
 }
 
 void openSurvey(MainWindow &window, const RenderOptions &options)
 {
     offerOnly({"window", "survey"}, "surveys", options.views);
-    QEventLoop loop;
-    std::optional<Error> failure;
-    QObject::connect(&window.survey(), &SurveyPanel::failed, &loop, [&](const Error &error) {
-        failure = error;
-        loop.quit();
-    });
-    QObject::connect(&window.survey(), &SurveyPanel::opened, &loop, &QEventLoop::quit, Qt::QueuedConnection);
-    window.open(pathText(options.source));
-    loop.exec();
-    if (failure)
-        throw *failure;
+    runAndSettle(window.survey(), [&] { window.open(pathText(options.source)); });
 }
 
 void openExperiment(MainWindow &window, const RenderOptions &options)
@@ -166,13 +135,8 @@ void openExperiment(MainWindow &window, const RenderOptions &options)
     offerOnly({"window", "pd", "sweep"}, "experiments", options.views);
     if (!options.settings.empty() || !options.preset.empty() || !options.part.assignments().empty())
         throw Error("--set", "cannot be combined with an experiment, which has its own settings");
-    std::optional<Error> failure;
-    QObject::connect(&window.experimentList(), &ExperimentsPanel::failed, &window,
-                     [&](const Error &error) { failure = error; });
     window.sweep().setMeasuringCost(false);
-    window.open(pathText(options.source));
-    if (failure)
-        throw *failure;
+    runAndSettle(window.experimentList(), [&] { window.open(pathText(options.source)); });
     settleExperiments(window);
 }
 

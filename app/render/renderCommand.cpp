@@ -24,7 +24,6 @@
 
 #include <QApplication>
 #include <QBuffer>
-#include <QEventLoop>
 
 #include <algorithm>
 
@@ -67,13 +66,10 @@ namespace {
                         layer == OutputLayer::Presence
                             ? "requires lines over frequency; the source has pings on range and bearing"
                             : "requires pings on range and bearing; the source has lines over frequency");
-        std::optional<Error> failure;
-        QObject::connect(&layers, &OutputLayers::failed, &window, [&](const Error &error) { failure = error; });
-        layers.setOverlay(options.isLayerOver);
-        layers.setLayer(layer);
-        settleLayers(window);
-        if (failure)
-            throw *failure;
+        runAndSettle(layers, [&] {
+            layers.setOverlay(options.isLayerOver);
+            layers.setLayer(layer);
+        });
     }
 
     void prepare(MainWindow &window, const std::vector<std::string> &views)
@@ -83,8 +79,6 @@ namespace {
             measureCurves(window);
         if (has("sweep"))
             sweepThreshold(window);
-        if (has("why"))
-            explainCursor(window);
         for (const std::string &view : views)
             if (isOf(WindowView::Of::Pings, view) && !window.pingBench().isInUse())
                 throw Error("--view " + view, "requires pings or scans");
@@ -92,18 +86,11 @@ namespace {
                 throw Error("--view " + view, "requires a survey (.sqlite)");
         if (has("latency"))
             measureLatency(window);
-        if (has("slice"))
-            cutStates(window);
+        for (const char *name : {"why", "slice", "spectrum", "channels", "doppler", "noisefit"})
+            if (has(name))
+                showAndSettle(window, QString::fromLatin1(name));
         if (has("noise") || has("window"))
-            settleNoiseCheck(window);
-        if (has("spectrum"))
-            settleSpectrum(window);
-        if (has("channels"))
-            showChannels(window);
-        if (has("doppler"))
-            fitDoppler(window);
-        if (has("noisefit"))
-            measureNoise(window);
+            settle(window.recordingCheck());
         if (std::any_of(views.begin(), views.end(), [](const auto &view) { return isOf(WindowView::Of::Scans, view); }))
             testSelection(window, views);
     }
@@ -232,8 +219,7 @@ void render(const RenderOptions &options)
         QWidget &widget = *window.views().named(QString::fromStdString(view));
         // At that size a layer may have more pixels to fill, and a picture smaller ones.
         pictureOf(widget, options.size, options.isFocused);
-        settleLayers(window);
-        settleCloseup(window);
+        settle(window.workbench());
         provenance["render"] = toJson(options, view);
         write(pictureOf(widget, options.size, options.isFocused), pictureName(options, view), provenance);
     }
@@ -253,17 +239,7 @@ void report(const RenderOptions &options)
     showUnattended(window, options.size);
     openAndSettle(window, options);
     ReportWriter writer(window.document(), window.views());
-    QEventLoop loop;
-    std::optional<Error> failure;
-    QObject::connect(&writer, &ReportWriter::failed, &loop, [&](const Error &error) { failure = error; });
-    QObject::connect(&writer, &ReportWriter::busyChanged, &loop, [&](bool isBusy) {
-        if (!isBusy)
-            loop.quit();
-    });
-    writer.write(pathText(options.out));
-    loop.exec();
-    if (failure)
-        throw *failure;
+    runAndSettle(writer, [&] { writer.write(pathText(options.out)); });
 }
 
 } // namespace faintline

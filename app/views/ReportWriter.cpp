@@ -97,14 +97,7 @@ void writeReport(const Analysis &analysis, ReportMaterial material, const std::s
 ReportWriter::ReportWriter(const Document &document, const WindowViews &views, QObject *parent)
     : QObject(parent), m_document(document), m_views(views)
 {
-    connect(&m_runner, &JobRunner::started, this, [this] { emit busyChanged(true); });
-    for (const auto ended : {&JobRunner::finished, &JobRunner::cancelled})
-        connect(&m_runner, ended, this, [this] { emit busyChanged(false); });
-    connect(&m_runner, &JobRunner::progressed, this, &ReportWriter::progressed);
-    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
-        emit busyChanged(false);
-        emit failed(error);
-    });
+    connect(&m_runner, &JobRunner::failed, this, &ReportWriter::failed);
 }
 
 void ReportWriter::write(const QString &path)

@@ -27,18 +27,16 @@ public:
     ReportWriter(const Document &document, const WindowViews &views, QObject *parent = nullptr);
 
     void write(const QString &path);
-    void cancel() { m_runner.cancel(); }
+    JobRunner &runner() { return m_runner; }
 
 signals:
-    void busyChanged(bool isBusy);
-    void progressed(double fraction, const QString &what);
     void written(const QString &path);
     void failed(const faintline::Error &error);
 
 private:
     const Document &m_document;
     const WindowViews &m_views;
-    JobRunner m_runner; ///< last, so that its job ends first
+    JobRunner m_runner{this}; ///< last, so that its job ends first
 };
 
 } // namespace faintline

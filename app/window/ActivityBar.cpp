@@ -1,5 +1,7 @@
 #include "app/window/ActivityBar.h"
 
+#include "app/base/JobRunner.h"
+
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QProgressBar>
@@ -44,10 +46,14 @@ void ActivityBar::setBusy(bool isBusy)
     }
 }
 
-void ActivityBar::setProgress(double fraction, const QString &what)
+void ActivityBar::follow(JobRunner &runner)
 {
-    m_what->setText(what);
-    m_progress->setValue(int(fraction * m_progress->maximum()));
+    connect(&runner, &JobRunner::busyChanged, this, &ActivityBar::setBusy);
+    connect(&runner, &JobRunner::progressed, this, [this](double fraction, const QString &what) {
+        m_what->setText(what);
+        m_progress->setValue(int(fraction * m_progress->maximum()));
+    });
+    connect(this, &ActivityBar::cancelRequested, &runner, &JobRunner::cancel);
 }
 
 } // namespace faintline

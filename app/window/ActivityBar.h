@@ -8,6 +8,8 @@ class QProgressBar;
 
 namespace faintline {
 
+class JobRunner;
+
 /// Name and progress of the running computation, and a button to cancel it. Visible only if it takes longer than 0.2 s.
 class ActivityBar : public QWidget
 {
@@ -16,14 +18,15 @@ class ActivityBar : public QWidget
 public:
     explicit ActivityBar(QWidget *parent = nullptr);
 
-public slots:
-    void setBusy(bool isBusy);
-    void setProgress(double fraction, const QString &what);
+    /// Shows its jobs, and lets them be cancelled.
+    void follow(JobRunner &runner);
 
 signals:
     void cancelRequested();
 
 private:
+    void setBusy(bool isBusy);
+
     QLabel *m_what;
     QProgressBar *m_progress;
     QTimer m_delay;

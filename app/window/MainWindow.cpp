@@ -388,54 +388,9 @@ void MainWindow::showExperiment(int id)
     showAlone(panel, tr("%1 — Faintline").arg(entry->name), tr("The curves grow while the experiment runs."));
 }
 
-void MainWindow::showWhy()
+void MainWindow::showView(const QString &name)
 {
-    m_panels->show(m_why);
-}
-
-void MainWindow::showNoiseFit()
-{
-    m_panels->show(m_noiseFit);
-}
-
-void MainWindow::showStates()
-{
-    m_panels->show(m_states);
-}
-
-void MainWindow::showLatency()
-{
-    m_panels->show(m_latency);
-}
-
-void MainWindow::showHandLine()
-{
-    m_panels->show(m_handLine);
-}
-
-void MainWindow::showTargets()
-{
-    m_panels->show(m_targets);
-}
-
-void MainWindow::showSweep()
-{
-    m_panels->show(m_sweep);
-}
-
-void MainWindow::showSpectrum()
-{
-    m_panels->show(m_spectrum);
-}
-
-void MainWindow::showChannels()
-{
-    m_panels->show(m_channels);
-}
-
-void MainWindow::showDoppler()
-{
-    m_panels->show(m_doppler);
+    m_panels->show(m_views->named(name));
 }
 
 /// Plays sound; without sound only the cursor moves. In a live run the picture continues.
@@ -447,11 +402,6 @@ void MainWindow::setPlaying(bool isPlaying)
     else if (isPlaying && &bench() == m_workbench && !isLive && (m_playback->isPlaying() || m_playback->start()))
         return;
     bench().setPlaying(isPlaying);
-}
-
-void MainWindow::showCompare()
-{
-    m_panels->show(m_compare);
 }
 
 void MainWindow::setTheme(Theme::Kind kind)

@@ -69,21 +69,11 @@ public:
     LiveRun &live() { return *m_live; }
     LiveBar &liveBar() { return *m_liveBar; }
 
-    void showNoiseFit();
-    void showWhy();
-    void showStates();
-    void showLatency();
-    void showHandLine();
-    void showTargets();
-    void newScene(); ///< of sonar pings, without targets
+    void showView(const QString &name); ///< brings its panel to the front
+    void newScene();                    ///< of sonar pings, without targets
     void learnMotion();
-    void showSpectrum();
-    void showChannels();
-    void showDoppler();
     void setPlaying(bool isPlaying);
     void straighten(); ///< along the selected event's track, or the strongest's
-    void showCompare();
-    void showSweep();
 
     /// Off: shows no dialogs.
     void setAsking(bool isAsking);

@@ -130,15 +130,13 @@ void MainWindow::connectDocument()
 
 void MainWindow::connectController()
 {
-    connect(&m_controller, &AnalysisController::busyChanged, m_activity, &ActivityBar::setBusy);
+    m_activity->follow(m_controller.runner());
     connect(&m_controller, &AnalysisController::busyChanged, m_stopAction, &QAction::setEnabled);
     connect(&m_controller, &AnalysisController::busyChanged, this, [this](bool isBusy) {
         if (!isBusy && !m_document.isEmpty() && !m_document.analysis())
             m_workbench->output()->setEmptySentence(tr("Stopped before the detector finished."));
         showHint();
     });
-    connect(&m_controller, &AnalysisController::progressed, m_activity, &ActivityBar::setProgress);
-    connect(m_activity, &ActivityBar::cancelRequested, &m_controller, &AnalysisController::stop);
     connect(&m_controller, &AnalysisController::failed, this, &MainWindow::showFailure);
     connect(&m_controller, &AnalysisController::warned, this, [this](const QString &where, const QString &why) {
         m_messages->showMessage(MessageBar::Kind::Notice, where, why);
@@ -152,9 +150,7 @@ void MainWindow::connectController()
     m_recovery = new Recovery(
         m_document, [this] { return viewState(); }, m_recoveryFolder, this);
     m_report = new ReportWriter(m_document, *m_views, this);
-    connect(m_report, &ReportWriter::busyChanged, m_activity, &ActivityBar::setBusy);
-    connect(m_report, &ReportWriter::progressed, m_activity, &ActivityBar::setProgress);
-    connect(m_activity, &ActivityBar::cancelRequested, m_report, &ReportWriter::cancel);
+    m_activity->follow(m_report->runner());
     connect(m_playback, &Playback::failed, this, [this](const Error &error) {
         const QString why = QString::fromStdString(error.why());
         m_messages->showMessage(MessageBar::Kind::Notice, QString::fromStdString(error.where()),
@@ -279,9 +275,7 @@ void MainWindow::connectSurvey()
     connect(m_survey, &SurveyPanel::opened, this, [this] {
         showAlone(m_survey, tr("Survey — Faintline"), tr("Double-click an event to open its recording there."));
     });
-    connect(m_survey, &SurveyPanel::busyChanged, m_activity, &ActivityBar::setBusy);
-    connect(m_survey, &SurveyPanel::progressed, m_activity, &ActivityBar::setProgress);
-    connect(m_activity, &ActivityBar::cancelRequested, m_survey, &SurveyPanel::cancel);
+    m_activity->follow(m_survey->runner());
     connect(m_survey, &SurveyPanel::failed, this, &MainWindow::showError);
     connect(m_survey, &SurveyPanel::openRequested, this,
             [this](const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust) {
@@ -315,8 +309,7 @@ void MainWindow::connectEvaluation()
             showWelcome();
     });
     connect(m_trials.get(), &TrialViewer::failed, this, &MainWindow::showError);
-    connect(m_trials.get(), &TrialViewer::busyChanged, m_activity, &ActivityBar::setBusy);
-    connect(m_trials.get(), &TrialViewer::progressed, m_activity, &ActivityBar::setProgress);
+    m_activity->follow(m_trials->runner());
     connect(m_experimentList, &ExperimentsPanel::failed, this, &MainWindow::showError);
     connect(m_experimentList, &ExperimentsPanel::showRequested, this, &MainWindow::showExperiment);
     connect(&m_experiments, &Experiments::changed, this, [this](int id) {

@@ -124,7 +124,7 @@ void MainWindow::newScene()
         // The layout is taken when the scene is open.
         const auto show = [this] {
             showWorkbench();
-            showTargets();
+            showView(QStringLiteral("targets"));
         };
         connect(&m_document, &Document::opened, this, show, Qt::SingleShotConnection);
         openNow(openSeaPath());

@@ -149,7 +149,8 @@ void MainWindow::buildLinesMenu()
     addViewAction(*menu, tr("&Next event"), Qt::Key_N, [this] { m_events->selectNext(); });
     addViewAction(*menu, tr("&Previous event"), QKeySequence(Qt::SHIFT | Qt::Key_N),
                   [this] { m_events->selectPrevious(); });
-    QAction *why = addViewAction(*menu, tr("&Why (not) detected"), QKeySequence(Qt::Key_W), [this] { showWhy(); });
+    QAction *why = addViewAction(*menu, tr("&Why (not) detected"), QKeySequence(Qt::Key_W),
+                                 [this] { showView(QStringLiteral("why")); });
     QAction *hear = addViewAction(*menu, tr("&Hear the line"), QKeySequence(Qt::SHIFT | Qt::Key_H), [this] {
         m_playback->chooseLine();
         m_playAction->setChecked(true);
@@ -158,7 +159,8 @@ void MainWindow::buildLinesMenu()
     menu->addSeparator();
     m_reviews->addActionsTo(*menu);
     menu->addSeparator();
-    QAction *doppler = addViewAction(*menu, tr("Doppler &fit"), Qt::Key_D, [this] { showDoppler(); });
+    QAction *doppler =
+        addViewAction(*menu, tr("Doppler &fit"), Qt::Key_D, [this] { showView(QStringLiteral("doppler")); });
     doppler->setToolTip(tr("Fit a source that passes at constant speed to the selected event's track"));
     QAction *straight =
         addViewAction(*menu, tr("S&traighten recording along this track…"), Qt::Key_T, [this] { straighten(); });
@@ -168,9 +170,10 @@ void MainWindow::buildLinesMenu()
     m_events->card().setActions({why, hear, m_harmonicsAction, straight, doppler});
     addViewAction(*menu, tr("Learn &motion from tracks…"), {}, [this] { learnMotion(); });
     menu->addSeparator();
-    addViewAction(*menu, tr("Draw a line &by hand"), QKeySequence(Qt::CTRL | Qt::Key_D), [this] { showHandLine(); });
+    addViewAction(*menu, tr("Draw a line &by hand"), QKeySequence(Qt::CTRL | Qt::Key_D),
+                  [this] { showView(QStringLiteral("hand")); });
     addViewAction(*menu, tr("Pla&ce sonar targets"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_D), [this] {
-        showTargets();
+        showView(QStringLiteral("targets"));
     })->setToolTip(tr("Place the targets of a simulated scene on the map, and edit them in a table"));
     addViewAction(*menu, tr("&Inject a line…"), QKeySequence(Qt::CTRL | Qt::Key_I), [this] { injectLine(); });
 }
@@ -189,7 +192,7 @@ void MainWindow::buildAnalyseMenu()
     addViewAction(*menu, tr("Threshold &up"), Qt::Key_Period, [this] { m_controller.stepThreshold(1); });
     menu->addSeparator();
     addViewAction(*menu, tr("&Keep as A"), QKeySequence(Qt::CTRL | Qt::Key_B), [this] {
-        showCompare();
+        showView(QStringLiteral("compare"));
         m_compare->keep();
     });
     addViewAction(*menu, tr("Swap &A and B"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_B),
@@ -201,15 +204,15 @@ void MainWindow::buildAnalyseMenu()
     })->setToolTip(tr("How often lines of an SNR are found, at a rate of false alarms"));
     addViewAction(*menu, tr("&Experiments"), {}, [this] { m_panels->show(m_experimentList); });
     addViewAction(*menu, tr("S&weep a setting"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_P), [this] {
-        showSweep();
+        showView(QStringLiteral("sweep"));
     })->setToolTip(tr("How often lines are found with each of several values of a setting"));
     addViewAction(*menu, tr("&Noise fit"), {}, [this] {
-        showNoiseFit();
+        showView(QStringLiteral("noisefit"));
     })->setToolTip(tr("Whether the recording's noise is as the rate of false alarms assumes"));
     addViewAction(*menu, tr("S&tate space"), Qt::Key_S, [this] {
-        showStates();
+        showView(QStringLiteral("slice"));
     })->setToolTip(tr("What the detector holds of every frequency and drift at the cursor's time"));
-    addViewAction(*menu, tr("&Latency of pings"), {}, [this] { showLatency(); });
+    addViewAction(*menu, tr("&Latency of pings"), {}, [this] { showView(QStringLiteral("latency")); });
     menu->addSeparator();
     addViewAction(*menu, tr("Se&quential test"), QKeySequence(Qt::CTRL | Qt::Key_T), [this] {
         m_panels->show(m_sequential);

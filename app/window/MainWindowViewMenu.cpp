@@ -70,10 +70,10 @@ void MainWindow::buildViewMenu()
     addViewAction(*menu, tr("Cursor to the pea&k nearby"), Qt::Key_K,
                   [input, output] { (input->hasFocus() ? input : output)->moveCursorToPeak(); });
     addViewAction(*menu, tr("S&pectrum"), QKeySequence(Qt::SHIFT | Qt::Key_S), [this] {
-        showSpectrum();
+        showView(QStringLiteral("spectrum"));
     })->setToolTip(tr("Spectrum at the cursor, and mean spectrum of the visible part"));
     addViewAction(*menu, tr("C&hannels side by side"), {}, [this] {
-        showChannels();
+        showView(QStringLiteral("channels"));
     })->setToolTip(tr("The input of each channel of the recording; a click selects the channel that is analysed"));
     menu->addSeparator();
     QMenu *picture = menu->addMenu(tr("P&icture"));

@@ -19,19 +19,11 @@ namespace {
 
 TrialViewer::TrialViewer(const Experiments &experiments, QWidget *window) : m_experiments(experiments), m_parent(window)
 {
-    const auto end = [this] {
+    connect(&m_runner, &JobRunner::busyChanged, this, [this](bool isBusy) {
         if (m_window)
-            m_window->setBusy(false);
-        emit busyChanged(false);
-    };
-    connect(&m_runner, &JobRunner::started, this, [this] { emit busyChanged(true); });
-    connect(&m_runner, &JobRunner::progressed, this, &TrialViewer::progressed);
-    connect(&m_runner, &JobRunner::finished, this, end);
-    connect(&m_runner, &JobRunner::cancelled, this, end);
-    connect(&m_runner, &JobRunner::failed, this, [this, end](const Error &error) {
-        emit failed(error);
-        end();
+            m_window->setBusy(isBusy);
     });
+    connect(&m_runner, &JobRunner::failed, this, &TrialViewer::failed);
 }
 
 TrialViewer::~TrialViewer() = default;
@@ -71,8 +63,6 @@ void TrialViewer::start()
     if (all.empty())
         return;
     m_trial %= std::ssize(all);
-    if (m_window)
-        m_window->setBusy(true);
     const TrialPlace place = all[std::size_t(m_trial)].place;
     m_runner.start([this, campaign = *entry->campaign, trials = entry->trials, detector = m_detector, snr = m_snr,
                     place](const RunContext &context) -> JobRunner::Delivery {

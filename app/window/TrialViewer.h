@@ -25,12 +25,10 @@ public:
 
     /// Opens the first trial behind that point; a repeated call for the same point opens the next.
     void open(int experiment, std::size_t detector, std::size_t snr);
-    bool isBusy() const { return m_runner.isRunning(); }
+    JobRunner &runner() { return m_runner; }
     TrialWindow *window() const { return m_window.get(); } ///< null until a trial has been opened
 
 signals:
-    void progressed(double fraction, const QString &what);
-    void busyChanged(bool isBusy);
     void shown();
     void failed(const faintline::Error &error);
 
@@ -46,7 +44,7 @@ private:
     std::size_t m_detector = 0;
     std::size_t m_snr = 0;
     std::ptrdiff_t m_trial = 0;
-    JobRunner m_runner; ///< last, so that its jobs end first
+    JobRunner m_runner{this}; ///< last, so that its jobs end first
 };
 
 } // namespace faintline

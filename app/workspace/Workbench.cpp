@@ -1,9 +1,9 @@
 #include "app/workspace/Workbench.h"
 
-#include "app/control/BoxMeter.h"
 #include "app/control/Closeup.h"
 #include "app/control/OutputLayers.h"
 #include "app/control/PlainInput.h"
+#include "app/control/measureBox.h"
 #include "app/control/trackBox.h"
 #include "app/workspace/RegulationPlot.h"
 #include "app/workspace/strongestPlace.h"
@@ -74,9 +74,8 @@ QString Workbench::inputHeading(bool isRest)
 Workbench::Workbench(Document &document, QWidget *parent)
     : Bench(document, lineFrames(), stepInterval, parent), m_input(new WaterfallView(inputHeading(false))),
       m_output(new WaterfallView(tr("Statistic D (nat)"))), m_layers(new OutputLayers(document, *m_output, this)),
-      m_boxMeter(new BoxMeter(document, this)), m_inputPane(ColourBar::pane(m_input)),
-      m_outputPane(ColourBar::pane(m_output)), m_statistic(new StripPlot(tr("D (nat)"))),
-      m_regulation(new RegulationPlot)
+      m_inputPane(ColourBar::pane(m_input)), m_outputPane(ColourBar::pane(m_output)),
+      m_statistic(new StripPlot(tr("D (nat)"))), m_regulation(new RegulationPlot)
 {
     m_input->setObjectName(QStringLiteral("input"));
     m_output->setObjectName(QStringLiteral("output"));
@@ -111,7 +110,7 @@ Workbench::Workbench(Document &document, QWidget *parent)
     m_closeup = new Closeup(document, *m_input, *m_output, this); // connected after the pictures
     m_plainInput = new PlainInput(document, *m_input, this);
     whenInUse(m_plainInput, &PlainInput::changed, &Workbench::showInput);
-    whenInUse(m_closeup, &Closeup::settled, &Workbench::readCursor);
+    whenInUse(m_closeup, &Closeup::shown, &Workbench::readCursor);
 }
 
 void Workbench::linkViews()
@@ -124,10 +123,10 @@ void Workbench::linkViews()
         view->setViewport(viewport);
         connect(view, &WaterfallView::measuringChanged, other, &WaterfallView::setMeasuring);
         connect(view, &WaterfallView::sidebandsChanged, other, &WaterfallView::setSidebandSpacing);
-        connect(m_boxMeter, &BoxMeter::measured, view, &WaterfallView::setSelectionNote);
         connect(view, &WaterfallView::hovered, this, [this](double seconds, double hz) { read({seconds, hz}); });
         whenInUse(view, &WaterfallView::hoverEnded, &Workbench::readCursor);
     }
+    measureBox(m_document, {m_input, m_output});
     connect(m_output, &WaterfallView::shownPictureChanged, this, [this] {
         if (!isInUse() || (m_document.isLive() && !isStripDue()))
             return;

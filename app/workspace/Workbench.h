@@ -9,7 +9,6 @@ class QSplitter;
 
 namespace faintline {
 
-class BoxMeter;
 class Closeup;
 class PlainInput;
 class RegulationPlot;
@@ -91,7 +90,6 @@ private:
     WaterfallView *m_input;
     WaterfallView *m_output;
     OutputLayers *m_layers;
-    BoxMeter *m_boxMeter;
     Closeup *m_closeup;
     PlainInput *m_plainInput;
     QWidget *m_inputPane;

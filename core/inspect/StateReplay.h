@@ -56,6 +56,7 @@ struct StateSlice {
     std::size_t columns = 1;
     /// One per axis; nothing: the maximum over it. Ignored for rows and columns.
     std::vector<std::optional<Index>> places;
+    bool operator==(const StateSlice &) const = default;
 };
 
 /// rows × columns values; -∞ if no state can be reached.

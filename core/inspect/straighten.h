@@ -60,6 +60,7 @@ struct StraightenChoice {
     double smoothingSeconds = 0.0;     ///< as in smoothFrequency
     std::optional<double> targetHz;    ///< default: the track's mean frequency
     std::optional<Straightening> kind; ///< default: as the analysis suggests
+    bool operator==(const StraightenChoice &) const = default;
 };
 
 /// A recording straightened along an event's track, and the regions in which to examine the line before and after: over

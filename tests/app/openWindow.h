@@ -47,12 +47,11 @@ inline QAbstractButton *buttonOf(const QWidget &widget, const QString &text)
     qFatal("no button %s", qPrintable(text));
 }
 
-/// Waits until a part of the window that is busy now has settled.
+/// Waits until nothing of a part of the window is computed.
 template <class Part>
-bool settle(Part &part)
+bool settle(const Part &part)
 {
-    QSignalSpy settled(&part, &Part::settled);
-    return !part.isBusy() || settled.wait(patience);
+    return QTest::qWaitFor([&] { return !isBusy(part); }, patience);
 }
 
 inline bool settle(MainWindow &window)

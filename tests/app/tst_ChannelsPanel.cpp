@@ -55,7 +55,7 @@ QStringList titlesOf(const ChannelsPanel &panel)
 /// The panel is shown and has computed its pictures.
 bool showAndSettle(MainWindow &window)
 {
-    window.showChannels();
+    window.showView("channels");
     QCoreApplication::processEvents();
     return settle(window.channels());
 }
@@ -77,7 +77,7 @@ private slots:
         const auto window = newWindow();
         QVERIFY(openAndSettle(*window, recordingOf(m_folder, 2), makeQuick));
         ChannelsPanel &panel = window->channels();
-        QVERIFY(!panel.isBusy()); // nothing is computed for a hidden panel
+        QVERIFY(!isBusy(panel)); // nothing is computed for a hidden panel
         QVERIFY(showAndSettle(*window));
         QVERIFY2(panel.sentence().isEmpty(), qPrintable(panel.sentence()));
         QCOMPARE(titlesOf(panel), QStringList({"Channel 0, analysed", "Channel 1"}));
@@ -210,7 +210,7 @@ private slots:
     void aMonoRecordingHasOnlyOne()
     {
         const auto window = newWindow();
-        window->showChannels();
+        window->showView("channels");
         QVERIFY(!window->channels().sentence().isEmpty()); // nothing is open
         QVERIFY(openAndSettle(*window, recordingOf(m_folder, 1), makeQuick));
         QVERIFY(showAndSettle(*window));

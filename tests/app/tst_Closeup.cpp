@@ -43,10 +43,7 @@ class tst_Closeup : public QObject
         m_window->document().setAnalysis(analysis, events(*analysis));
     }
 
-    bool settle()
-    {
-        return QTest::qWaitFor([this] { return !workbench().closeup().isBusy(); }, patience);
-    }
+    bool settle() { return faintline::test::settle(workbench().closeup()); }
 
 private slots:
     void init()
@@ -68,13 +65,13 @@ private slots:
         Viewport &viewport = m_window->document().viewport();
         const Span time{70.3, 101.9}, band{40.0, 140.0};
         viewport.zoomTo(time, band);
-        QVERIFY(!workbench().closeup().isBusy()); // rows are frames
+        QVERIFY(!isBusy(workbench().closeup())); // rows are frames
         const QImage input = canvas(workbench().input());
         const QImage output = canvas(workbench().output());
         const auto value = workbench().output()->valueAt(80.1, 90.0);
 
         shorten();
-        QVERIFY(workbench().closeup().isBusy());
+        QVERIFY(isBusy(workbench().closeup()));
         QVERIFY(canvas(workbench().input()) != input); // merged rows meanwhile
         QVERIFY(settle());
         QCOMPARE(workbench().input()->shownPicture()->framesPerRow(0), Index(1));
@@ -93,11 +90,11 @@ private slots:
         QVERIFY(settle());
         const auto first = workbench().input()->shownPicture();
         viewport.pan(9.0, 0.0);
-        QVERIFY(!workbench().closeup().isBusy());
+        QVERIFY(!isBusy(workbench().closeup()));
         QCOMPARE(workbench().input()->shownPicture(), first);
 
         viewport.pan(60.0, 0.0);
-        QVERIFY(workbench().closeup().isBusy());
+        QVERIFY(isBusy(workbench().closeup()));
         QCOMPARE(workbench().input()->shownPicture(), m_window->document().analysis()->input);
         QVERIFY(settle());
         QCOMPARE(workbench().input()->shownPicture()->framesPerRow(0), Index(1));
@@ -127,7 +124,7 @@ private slots:
         m_window->document().setAnalysis(m_whole, events(*m_whole));
         QCOMPARE(workbench().output()->shownPicture(), m_whole->statistic);
         QCOMPARE(workbench().input()->shownPicture(), m_whole->input);
-        QVERIFY(!workbench().closeup().isBusy());
+        QVERIFY(!isBusy(workbench().closeup()));
     }
 };
 

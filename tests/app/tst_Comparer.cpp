@@ -30,7 +30,7 @@ class tst_Comparer : public QObject
         if (settled.isEmpty())
             QVERIFY(settled.wait(patience));
         settled.clear();
-        QTRY_VERIFY(!window.comparer().isBusy());
+        QTRY_VERIFY(!isBusy(window.comparer()));
     }
 
 private slots:

@@ -307,8 +307,8 @@ void tst_Evaluation::aReproductionShowsItsTable()
 
 void tst_Evaluation::theNoiseIsMeasuredWhileItIsSeen()
 {
-    m_window->showNoiseFit();
-    QVERIFY(QTest::qWaitFor([this] { return !m_window->noiseFit().isBusy(); }, patience));
+    m_window->showView("noisefit");
+    QVERIFY(settle(m_window->noiseFit()));
     QCOMPARE(m_window->noiseFit().table()->rowCount(), 6);
     QVERIFY2(m_window->noiseFit().sentence().contains("law"), qPrintable(m_window->noiseFit().sentence()));
     QCOMPARE(m_window->noiseFit().plot().chart().curves.size(), std::size_t(7));

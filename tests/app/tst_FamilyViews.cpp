@@ -118,10 +118,9 @@ void tst_FamilyViews::theSpectrumIsTheRecordingsWithTheTeethMarked()
 void tst_FamilyViews::whyTellsWhatEachMemberBrought()
 {
     WhyPanel &why = m_window->why();
-    QSignalSpy settled(&why, &WhyPanel::settled);
     m_window->document().viewport().setCursor({30.0, fundamental});
     QTest::keyClick(m_window.get(), Qt::Key_W);
-    QVERIFY(settled.wait(patience));
+    QVERIFY(settle(why));
     const QTableWidget &teeth = *why.teeth();
     QVERIFY(teeth.isVisible());
     QCOMPARE(teeth.rowCount(), 5);
@@ -139,13 +138,12 @@ void tst_FamilyViews::whyTellsWhatEachMemberBrought()
 
 void tst_FamilyViews::singleLinesHaveNoTeeth()
 {
-    QSignalSpy settled(&m_window->why(), &WhyPanel::settled);
     AnalysisSettings settings = m_window->document().settings();
     settings.family = {};
     m_window->controller().setSettings(settings, "No family");
     QVERIFY(settle(*m_window));
     QCOMPARE(m_window->workbench().input()->cursorNote(), QString());
-    QVERIFY(!settled.isEmpty() || settled.wait(patience));
+    QVERIFY(settle(m_window->why()));
     QVERIFY(m_window->why().teeth()->isHidden());
     QTest::keyClick(m_window.get(), Qt::Key_S, Qt::ShiftModifier);
     QVERIFY(settle(m_window->spectrum()));

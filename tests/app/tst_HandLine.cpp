@@ -34,7 +34,7 @@ private:
     QPoint at(double seconds, double hz) const { return input().positionOf({seconds, hz}).toPoint(); }
     WaterfallView &input() const { return *m_window->workbench().input(); }
     HandLinePanel &panel() const { return m_window->handLine(); }
-    bool isSettled() const { return !panel().isBusy() && panel().comparison(); }
+    bool isSettled() const { return !isBusy(panel()) && panel().comparison(); }
 
     QTemporaryDir m_folder;
     std::unique_ptr<MainWindow> m_window;

@@ -80,7 +80,7 @@ void tst_LiveLookBack::saysWhyMeanwhile()
     Document &document = window->document();
     feeder.allow(80.0);
     QTRY_VERIFY_WITH_TIMEOUT(document.isLive() && document.live().time.last() > 78.0, patience);
-    window->showWhy();
+    window->showView("why");
     const auto *why = window->findChild<WhyPanel *>();
     document.viewport().setCursor({70.0, 290.0});
     QTRY_VERIFY_WITH_TIMEOUT(why->sentence().contains(QStringLiteral("add up to")), patience);

@@ -27,12 +27,12 @@ private slots:
         const auto window = newWindow();
         QVERIFY(openAndSettle(*window, m_scene));
         NoiseCheck &check = *window->info().check();
-        QVERIFY(settle(check));
+        QVERIFY(settle(window->recordingCheck()));
         QVERIFY(label(check, "noiseWarning")->isHidden()); // white noise follows its law
         button(check, "countOnSurrogates")->click();
-        QVERIFY(check.isBusy());
+        QVERIFY(isBusy(window->recordingCheck()));
         QCOMPARE(button(check, "countOnSurrogates")->text(), QString("Stop"));
-        QVERIFY(settle(check));
+        QVERIFY(settle(window->recordingCheck()));
         const QString said = label(check, "surrogateResult")->text();
         QVERIFY2(said.contains(" specified in ") && said.contains("ratio "), qPrintable(said));
         QVERIFY(!label(check, "surrogateResult")->isHidden());
@@ -44,11 +44,11 @@ private slots:
         const auto window = newWindow();
         QVERIFY(openAndSettle(*window, m_scene));
         NoiseCheck &check = *window->info().check();
-        QVERIFY(settle(check));
+        QVERIFY(settle(window->recordingCheck()));
         check.toggle();
-        QVERIFY(check.isBusy());
+        QVERIFY(isBusy(window->recordingCheck()));
         check.toggle();
-        QVERIFY(settle(check));
+        QVERIFY(settle(window->recordingCheck()));
         QVERIFY(label(check, "surrogateResult")->isHidden());
     }
 
@@ -57,7 +57,7 @@ private slots:
         const auto window = newWindow();
         QVERIFY(openAndSettle(*window, m_scene));
         NoiseCheck &check = *window->info().check();
-        QVERIFY(settle(check));
+        QVERIFY(settle(window->recordingCheck()));
         const double before = window->document().analysis()->threshold;
         SurrogateCount count;
         count.hours = 2.0;

@@ -226,18 +226,16 @@ private slots:
         const auto w = window();
         QVERIFY(openWithNineRates(*w, path("pings.json")));
         StateSlicePanel &states = w->states();
-        QSignalSpy settled(&states, &StateSlicePanel::settled);
-        const auto wait = [&] { return !states.isBusy() || settled.wait(patience); };
         w->pingBench().showPing(18);
-        w->showStates();
-        QVERIFY(wait());
+        w->showView("slice");
+        QVERIFY(settle(states));
         QVERIFY(states.view()->picture());
         QCOMPARE(states.view()->picture()->cells(), Index(3)); // range × its three rates
         QVERIFY2(states.sentence().startsWith("Ping 19:"), qPrintable(states.sentence()));
 
         states.setAxes(0, 1);
         states.setMaximised(true);
-        QVERIFY(wait());
+        QVERIFY(settle(states));
         const PeakPyramid &slice = *states.view()->picture();
         const PeakPyramid &map = *w->pingBench().output()->plane()->picture();
         QCOMPARE(slice.rowCount(0), map.rowCount(0));
@@ -246,7 +244,7 @@ private slots:
 
         // Backwards, too.
         w->pingBench().showPing(5);
-        QVERIFY(wait());
+        QVERIFY(settle(states));
         QVERIFY(std::ranges::equal(states.view()->picture()->row(0, 40),
                                    w->pingBench().output()->plane()->picture()->row(0, 40)));
     }
@@ -255,7 +253,7 @@ private slots:
     {
         const auto w = window();
         QVERIFY(openWithNineRates(*w, path("pings.json")));
-        w->showStates();
+        w->showView("slice");
         w->states().findChild<QTabBar *>()->setCurrentIndex(1);
         QCoreApplication::processEvents();          // the bars find their places
         QCOMPARE(w->states().law().plotCount(), 1); // a slope set has one law for both axes
@@ -286,9 +284,8 @@ private slots:
     {
         const auto w = window();
         QVERIFY(openWithNineRates(*w, path("pings.json")));
-        QSignalSpy settled(&w->noiseFit(), &NoiseFitPanel::settled);
-        w->showNoiseFit();
-        QVERIFY(settled.wait(patience));
+        w->showView("noisefit");
+        QVERIFY(settle(w->noiseFit()));
         const auto *table = w->noiseFit().findChild<QTableWidget *>();
         QVERIFY2(table->rowCount() > 0, qPrintable(w->noiseFit().sentence()));
         for (int row = 0; row < table->rowCount(); ++row)
@@ -300,12 +297,11 @@ private slots:
     {
         const auto w = window();
         QVERIFY(openWithNineRates(*w, path("pings.json")));
-        QSignalSpy settled(&w->why(), &WhyPanel::settled);
         w->pingBench().selectEvent(w->document().shownEvents().front().id);
         QTest::keyClick(w.get(), Qt::Key_W);
-        QVERIFY(settled.wait(patience));
+        QVERIFY(settle(w->why()));
         WhyPanel &why = w->why();
-        const Explanation &explanation = why.explanation().value();
+        const Explanation &explanation = *why.explanation();
         QVERIFY2(why.sentence().startsWith("Detected"), qPrintable(why.sentence()));
         QCOMPARE(why.ladder()->rowCount(), int(explanation.steps.size()));
         QCOMPARE(why.ladder()->columnCount(), 8); // time, range, bearing, λ, ln P, ln K, sum, second best
@@ -316,9 +312,8 @@ private slots:
         QVERIFY(std::abs(sum - explanation.displayed) < 1e-3 * std::abs(sum));
         // A step back is another cell's ladder.
         const int rows = why.ladder()->rowCount();
-        settled.clear();
         QTest::keyClick(w->pingBench().output()->plane(), Qt::Key_J);
-        QVERIFY(settled.wait(patience));
+        QVERIFY(settle(why));
         QVERIFY(why.ladder()->rowCount() < rows);
     }
 
@@ -329,9 +324,8 @@ private slots:
         QVERIFY(w->latency().obstacle().contains("scene"));
         QVERIFY(openWithNineRates(*w, path("pings.json")));
         QVERIFY2(w->latency().obstacle().isEmpty(), qPrintable(w->latency().obstacle()));
-        QSignalSpy settled(&w->latency(), &LatencyPanel::settled);
         w->latency().start(3);
-        QVERIFY(settled.wait(patience));
+        QVERIFY(settle(w->latency()));
         const Chart &pd = w->latency().pdPlot()->chart();
         QCOMPARE(pd.curves.size(), std::size_t(2));
         for (std::size_t i = 1; i < pd.curves[0].points.size(); ++i)

@@ -83,7 +83,7 @@ private slots:
 
     void theSliceFollowsTheCursor()
     {
-        m_window->showStates();
+        m_window->showView("slice");
         QVERIFY(settle(m_window->states()));
         StateSlicePanel &states = m_window->states();
         const Analysis &analysis = *m_window->document().analysis();
@@ -128,7 +128,7 @@ private slots:
             settings.decide.by = DecideSettings::By::Nats;
             settings.decide.thresholdNats = 20.0;
         }));
-        m_window->showStates();
+        m_window->showView("slice");
         QVERIFY(settle(m_window->states()));
         StateSlicePanel &states = m_window->states();
         QCOMPARE(states.view()->picture()->rowCount(0), Index(17)); // -1 … 1 in eighths of a bin
@@ -146,7 +146,7 @@ private slots:
 
     void theRangeIsThatOfTheCanvasAsItIs()
     {
-        m_window->showStates();
+        m_window->showView("slice");
         QVERIFY(settle(m_window->states()));
         const WaterfallView &view = *m_window->states().view();
         const Span narrow = view.range();
@@ -167,7 +167,7 @@ private slots:
 
     void frequenciesAreTheWaterfalls()
     {
-        m_window->showStates();
+        m_window->showView("slice");
         QVERIFY(settle(m_window->states()));
         Viewport &viewport = m_window->document().viewport();
         viewport.zoomTo(viewport.time(), {150.0, 250.0});
@@ -178,7 +178,7 @@ private slots:
 
     void aBarIsDraggedAndUndone()
     {
-        m_window->showStates();
+        m_window->showView("slice");
         m_window->states().findChild<QTabBar *>()->setCurrentIndex(1);
         QVERIFY(settle(m_window->states()));
         QVERIFY(law().isVisible());
@@ -211,7 +211,7 @@ private slots:
 
     void escapeLetsItBe()
     {
-        m_window->showStates();
+        m_window->showView("slice");
         m_window->states().findChild<QTabBar *>()->setCurrentIndex(1);
         const std::vector<double> before = setting();
         dragBar(law(), 0, 0.3, false);
@@ -225,7 +225,7 @@ private slots:
 
     void barsMoveByKey()
     {
-        m_window->showStates();
+        m_window->showView("slice");
         m_window->states().findChild<QTabBar *>()->setCurrentIndex(1);
         law().setFocus();
         QCOMPARE(law().selected(), 0);
@@ -303,9 +303,9 @@ private slots:
     {
         OutputLayers &layers = m_window->workbench().layers();
         m_window->document().viewport().setCursor({20.0, 210.0});
-        QVERIFY(!layers.isBusy());
+        QVERIFY(!isBusy(layers));
         QVERIFY(!layers.readingAt({20.0, {210.0}}));
-        m_window->showStates();
+        m_window->showView("slice");
         QVERIFY(settle(m_window->workbench().layers()));
         QVERIFY(layers.readingAt({20.0, {210.0}})); // watched with the states
     }

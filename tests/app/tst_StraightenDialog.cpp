@@ -89,7 +89,7 @@ void tst_StraightenDialog::writesTheCommandLinesFile()
     const QString path = m_folder.filePath("straight.wav");
     QSignalSpy written(dialog(), &StraightenDialog::written);
     dialog()->writeTo(path);
-    QVERIFY(dialog()->isBusy());
+    QVERIFY(isBusy(*dialog()));
     QVERIFY(!dialog()->target()->isEnabled());
     QVERIFY(!written.isEmpty() || written.wait(patience));
     QTRY_VERIFY(dialog()->target()->isEnabled());

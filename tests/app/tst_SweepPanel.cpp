@@ -38,7 +38,7 @@ private slots:
         const auto own = newWindow();
         MainWindow &window = *own;
         openLine(window);
-        window.showSweep();
+        window.showView("sweep");
         SweepPanel &panel = window.sweep();
         panel.form().setParameter("decide.thresholdNats");
         panel.form().setRange(5.0, 15.0, 3, false);
