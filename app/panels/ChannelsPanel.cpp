@@ -32,13 +32,11 @@ namespace {
 } // namespace
 
 ChannelsPanel::ChannelsPanel(Document &document, AnalysisController &controller, QWidget *parent)
-    : QWidget(parent), m_document(document), m_controller(controller), m_sentence(new QLabel), m_page(new QLabel),
+    : QWidget(parent), m_document(document), m_controller(controller), m_sentence(panelSentence()), m_page(new QLabel),
       m_previous(pageButton(Qt::LeftArrow, tr("Previous channels"))),
       m_next(pageButton(Qt::RightArrow, tr("Next channels"))), m_pictures(new LinkedPictures(document.viewport())),
       m_channels(this, &ChannelsPanel::question, picturesOf, &ChannelsPanel::show)
 {
-    m_sentence->setTextFormat(Qt::PlainText);
-    m_sentence->setWordWrap(true);
     m_sentence->setAlignment(Qt::AlignCenter);
     m_sentence->setContentsMargins(16, 16, 16, 16);
     auto *layout = new QVBoxLayout(this);
@@ -71,11 +69,6 @@ void ChannelsPanel::buildPager()
     m_page->setTextFormat(Qt::PlainText);
     connect(m_previous, &QToolButton::clicked, this, [this] { setFirstChannel(m_first - mostAtOnce); });
     connect(m_next, &QToolButton::clicked, this, [this] { setFirstChannel(m_first + mostAtOnce); });
-}
-
-QString ChannelsPanel::sentence() const
-{
-    return m_sentence->isHidden() ? QString() : m_sentence->text();
 }
 
 int ChannelsPanel::channelCount() const

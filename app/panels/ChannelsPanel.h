@@ -29,7 +29,6 @@ public:
     ChannelsPanel(Document &document, AnalysisController &controller, QWidget *parent = nullptr);
 
     LinkedPictures &pictures() const { return *m_pictures; }
-    QString sentence() const; ///< why there is no picture; empty if there is one
     int firstChannel() const { return m_first; }
     /// Shows the page that begins with this channel or contains it.
     void setFirstChannel(int channel);

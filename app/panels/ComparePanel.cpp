@@ -60,8 +60,8 @@ namespace {
 
 ComparePanel::ComparePanel(Document &document, AnalysisController &controller, Comparer &comparer, QWidget *parent)
     : QWidget(parent), m_document(document), m_controller(controller), m_comparer(comparer),
-      m_picture(new WaterfallView(tr("B − A (nat)"))), m_picturePane(buildPicture()), m_sentence(plainLabel()),
-      m_differences(new QLabel), m_keep(new QPushButton(tr("Keep as A"))), m_swap(new QPushButton(tr("Swap"))),
+      m_picture(new WaterfallView(tr("B − A (nat)"))), m_picturePane(buildPicture()), m_sentence(panelSentence()),
+      m_differences(plainLabel()), m_keep(new QPushButton(tr("Keep as A"))), m_swap(new QPushButton(tr("Swap"))),
       m_goTo(new QPushButton(tr("Go to A"))),
       m_compute(new QPushButton(tr("Compute A here"))), m_filters{new QToolButton, new QToolButton, new QToolButton},
       m_table(new QTableWidget(0, ColumnCount))
@@ -102,11 +102,9 @@ QWidget *ComparePanel::buildPicture()
 
 QWidget *ComparePanel::buildWords()
 {
-    for (QLabel *label : {m_sentence, m_differences}) {
-        label->setWordWrap(true);
-        label->setTextFormat(Qt::PlainText);
+    m_differences->setWordWrap(true);
+    for (QLabel *label : {m_sentence, m_differences})
         label->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    }
     m_sentence->setAccessibleName(tr("Comparison"));
     m_differences->setAccessibleName(tr("Settings in which A and B differ"));
     auto *words = new QWidget;
@@ -181,11 +179,6 @@ void ComparePanel::nameColumns(const QString &place)
 {
     m_table->setHorizontalHeaderLabels(
         {tr("In"), tr("Onset"), place, tr("A at"), tr("B at"), tr("D of A"), tr("D of B")});
-}
-
-QString ComparePanel::sentence() const
-{
-    return m_sentence->text();
 }
 
 QString ComparePanel::differences() const

@@ -25,7 +25,6 @@ public:
 
     WaterfallView *picture() const { return m_picture; }
     QTableWidget *table() const { return m_table; }
-    QString sentence() const;    ///< describes the result, or why there is none
     QString differences() const; ///< of the settings
 
     QSize sizeHint() const override { return {900, 300}; }

@@ -66,7 +66,7 @@ namespace {
 DopplerPanel::DopplerPanel(Document &document, const EventTable &events, Provenance &provenance, QWidget *parent)
     : QWidget(parent), m_document(document), m_events(events), m_provenance(provenance), m_form(new QFormLayout),
       m_medium(new QComboBox), m_propagation(new QDoubleSpinBox), m_centre(new QDoubleSpinBox),
-      m_save(new QPushButton(tr("&Save fit…"))), m_sentence(plainLabel()), m_table(new QTableWidget),
+      m_save(new QPushButton(tr("&Save fit…"))), m_sentence(panelSentence()), m_table(new QTableWidget),
       m_notes(plainLabel()), m_frequencies(new ChartPlot), m_residuals(new ChartPlot),
       m_fit(
           this, &DopplerPanel::question,
@@ -76,11 +76,9 @@ DopplerPanel::DopplerPanel(Document &document, const EventTable &events, Provena
           &DopplerPanel::show)
 {
     buildInputs();
-    for (QLabel *label : {m_sentence, m_notes}) {
-        label->setWordWrap(true);
-        label->setTextFormat(Qt::PlainText);
+    m_notes->setWordWrap(true);
+    for (QLabel *label : {m_sentence, m_notes})
         label->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    }
     makeReadingTable(*m_table, 20);
     m_table->setColumnCount(4);
     m_table->setHorizontalHeaderLabels({tr("Parameter"), tr("Estimate"), tr("90 % interval"), tr("Unit")});
@@ -168,11 +166,6 @@ void DopplerPanel::connectInputs()
     m_fit.askAt(*m_centre, &QDoubleSpinBox::valueChanged);
     m_fit.askAt(*m_events.table()->selectionModel(), &QItemSelectionModel::selectionChanged);
     m_fit.askAt(m_document, &Document::opened, &Document::shownEventsChanged);
-}
-
-QString DopplerPanel::sentence() const
-{
-    return m_sentence->text();
 }
 
 void DopplerPanel::takeMedium()

@@ -32,7 +32,6 @@ public:
     DopplerPanel(Document &document, const EventTable &events, Provenance &provenance, QWidget *parent = nullptr);
 
     const DopplerReport *report() const { return m_fit.answer(); } ///< as shown; null: none
-    QString sentence() const;
     QTableWidget *table() const { return m_table; }
     ChartPlot &frequencies() { return *m_frequencies; }
     ChartPlot &residuals() { return *m_residuals; }

@@ -68,7 +68,7 @@ HandLinePanel::HandLinePanel(Document &document, const Pictures &pictures, QWidg
     : QWidget(parent), m_document(document), m_pictures(pictures), m_line(new HandLine(pictures.input)),
       m_draw(new QPushButton(tr("Dra&w"))), m_cover(new QPushButton(tr("Cover the &statistic"))),
       m_add(new QPushButton(tr("Point at c&ursor"))), m_remove(new QPushButton(tr("Remove las&t"))),
-      m_clear(new QPushButton(tr("&Clear"))), m_sentence(plainLabel()), m_table(new QTableWidget(3, 3)),
+      m_clear(new QPushButton(tr("&Clear"))), m_sentence(panelSentence()), m_table(new QTableWidget(3, 3)),
       m_comparison(this, &HandLinePanel::question, compare, &HandLinePanel::show)
 {
     m_draw->setCheckable(true);
@@ -77,8 +77,6 @@ HandLinePanel::HandLinePanel(Document &document, const Pictures &pictures, QWidg
     m_cover->setCheckable(true);
     m_cover->setToolTip(tr("Hide statistic, tracks and truth until you reveal them"));
     m_add->setToolTip(tr("Add a point at the cursor, which the arrow keys move"));
-    m_sentence->setWordWrap(true);
-    m_sentence->setTextFormat(Qt::PlainText);
     buildTable();
 
     auto *buttons = new QGridLayout;
@@ -134,11 +132,6 @@ void HandLinePanel::connectInputs()
         m_line->clear();
         m_cover->setChecked(false);
     });
-}
-
-QString HandLinePanel::sentence() const
-{
-    return m_sentence->text();
 }
 
 HandLinePanel::Comparison HandLinePanel::compare(const std::shared_ptr<const Analysis> &shown,

@@ -46,7 +46,6 @@ public:
     HandLine &line() { return *m_line; }
     bool isCovered() const { return m_covers[0] != nullptr; }
     const Comparison *comparison() const { return m_comparison.answer(); } ///< null: none
-    QString sentence() const;
 
     /// Throws Cancelled.
     static Comparison compare(const std::shared_ptr<const Analysis> &analysis, const std::vector<PolylinePoint> &line,

@@ -59,15 +59,13 @@ namespace {
 
 LatencyPanel::LatencyPanel(const Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_runs(new QSpinBox), m_button(new QPushButton(tr("&Measure"))),
-      m_sentence(plainLabel()), m_pd(new ChartPlot), m_histogram(new ChartPlot)
+      m_sentence(panelSentence()), m_pd(new ChartPlot), m_histogram(new ChartPlot)
 {
     constexpr int usualRuns = 12;
     m_runs->setRange(1, 10000);
     m_runs->setValue(usualRuns);
     m_runs->setSuffix(tr(" runs"));
     m_runs->setAccessibleName(tr("Runs"));
-    m_sentence->setWordWrap(true);
-    m_sentence->setTextFormat(Qt::PlainText);
     for (ChartPlot *plot : {m_pd, m_histogram})
         plot->setEmptySentence(tr("Press Measure to see how soon the scene's targets are found."));
     auto *top = new QHBoxLayout;
@@ -104,11 +102,6 @@ LatencyPanel::LatencyPanel(const Document &document, QWidget *parent)
     connect(&m_runner, &JobRunner::failed, this,
             [this](const Error &error) { m_sentence->setText(messageText(error.what())); });
     follow();
-}
-
-QString LatencyPanel::sentence() const
-{
-    return m_sentence->text();
 }
 
 QString LatencyPanel::obstacle() const

@@ -23,7 +23,6 @@ class LatencyPanel : public QWidget
 public:
     explicit LatencyPanel(const Document &document, QWidget *parent = nullptr);
 
-    QString sentence() const;
     ChartPlot *pdPlot() const { return m_pd; }
     ChartPlot *histogramPlot() const { return m_histogram; }
 

@@ -49,11 +49,9 @@ namespace {
 } // namespace
 
 LawPanel::LawPanel(const Document &document, QWidget *parent)
-    : QWidget(parent), m_document(document), m_plots(new QVBoxLayout), m_sentence(new QLabel),
+    : QWidget(parent), m_document(document), m_plots(new QVBoxLayout), m_sentence(panelSentence()),
       m_sight(new VisibilityWatcher(*this))
 {
-    m_sentence->setWordWrap(true);
-    m_sentence->setTextFormat(Qt::PlainText);
     m_sentence->setContentsMargins(8, 2, 8, 4);
     m_sentence->setAccessibleName(tr("Interpretation of the law"));
     m_plots->setContentsMargins(0, 0, 0, 0);
@@ -69,11 +67,6 @@ LawPanel::LawPanel(const Document &document, QWidget *parent)
     });
     connect(&document, &Document::analysisChanged, this, &LawPanel::show);
     connect(&document, &Document::settingsChanged, this, &LawPanel::show);
-}
-
-QString LawPanel::sentence() const
-{
-    return m_sentence->text();
 }
 
 std::vector<LawPanel::Law> LawPanel::lawsOf(const Analysis &analysis) const

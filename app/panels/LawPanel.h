@@ -24,7 +24,6 @@ public:
 
     int plotCount() const { return int(m_laws.size()); }
     LawPlot *plot(int number) const { return m_laws[std::size_t(number)].plot; }
-    QString sentence() const;
 
 signals:
     /// A law was dragged: requests this value for the setting of that name.

@@ -82,7 +82,7 @@ namespace {
 } // namespace
 
 NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
-    : QWidget(parent), m_document(document), m_sentence(plainLabel()), m_plot(new ChartPlot),
+    : QWidget(parent), m_document(document), m_sentence(panelSentence()), m_plot(new ChartPlot),
       m_table(new QTableWidget(0, 4)),
       m_fit(
           this,
@@ -92,7 +92,6 @@ NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
           },
           measure, &NoiseFitPanel::show)
 {
-    m_sentence->setWordWrap(true);
     m_sentence->setContentsMargins(8, 6, 8, 4);
     m_plot->setEmptySentence(tr("Quantiles of the noise appear here."));
     m_table->setHorizontalHeaderLabels({tr("Band"), tr("Mean"), tr("KS distance"), tr("Pfa")});
@@ -120,11 +119,6 @@ NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
     m_fit.sayIn(*m_sentence);
     m_fit.askAt(document, &Document::opened, &Document::analysisChanged);
     m_fit.ask();
-}
-
-QString NoiseFitPanel::sentence() const
-{
-    return m_sentence->text();
 }
 
 NoiseFitPanel::Fit NoiseFitPanel::measure(const std::shared_ptr<const Analysis> &analysis, const RunContext &context)

@@ -29,7 +29,6 @@ public:
 
     ChartPlot &plot() { return *m_plot; }
     QTableWidget *table() const { return m_table; }
-    QString sentence() const;
 
     QSize sizeHint() const override { return {360, 420}; }
 

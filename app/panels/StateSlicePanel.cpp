@@ -42,7 +42,7 @@ namespace {
 
 StateSlicePanel::StateSlicePanel(Document &document, PingViewports &viewports, QWidget *parent)
     : QWidget(parent), m_document(document), m_viewports(viewports), m_rows(new QComboBox), m_columns(new QComboBox),
-      m_others(new QComboBox), m_model(new QComboBox), m_sentence(plainLabel()),
+      m_others(new QComboBox), m_model(new QComboBox), m_sentence(panelSentence()),
       m_view(new WaterfallView(tr("States (nat)"))), m_tabs(new QTabBar), m_pane(new QWidget),
       m_law(new LawPanel(document)), m_marks(std::make_unique<SliceMarks>(*m_view)),
       m_cut(
@@ -55,8 +55,6 @@ StateSlicePanel::StateSlicePanel(Document &document, PingViewports &viewports, Q
           },
           &StateSlicePanel::show)
 {
-    m_sentence->setWordWrap(true);
-    m_sentence->setTextFormat(Qt::PlainText);
     m_sentence->setContentsMargins(8, 4, 8, 4);
     QLayout *head = buildHead();
     buildView();
@@ -170,11 +168,6 @@ bool StateSlicePanel::hasChoice() const
 {
     const auto &analysis = m_document.analysis();
     return analysis && analysis->model.space.axes().size() > 1;
-}
-
-QString StateSlicePanel::sentence() const
-{
-    return m_sentence->text();
 }
 
 bool StateSlicePanel::isMaximised() const

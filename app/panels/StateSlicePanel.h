@@ -34,7 +34,6 @@ public:
     WaterfallView *view() const { return m_view; }
     LawPanel &law() const { return *m_law; }
     const SliceMarks &marks() const { return *m_marks; }
-    QString sentence() const;
 
     /// Indices of the axes in `stateAxes`.
     void setAxes(int rows, int columns);

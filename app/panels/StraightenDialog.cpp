@@ -73,7 +73,7 @@ namespace {
 StraightenDialog::StraightenDialog(const Document &document, const Event &event, Provenance &provenance,
                                    QWidget *parent)
     : QDialog(parent), m_analysis(document.analysis()), m_event(event), m_path(document.sourcePath()),
-      m_provenance(provenance), m_method(new QComboBox), m_type(new QComboBox), m_sentence(plainLabel()),
+      m_provenance(provenance), m_method(new QComboBox), m_type(new QComboBox), m_sentence(panelSentence()),
       m_before(new ChartPlot), m_after(new ChartPlot), m_progress(new QProgressBar),
       m_write(new QPushButton(tr("&Write recording…"))),
       m_preview(
@@ -111,8 +111,6 @@ void StraightenDialog::buildInputs()
     m_usualSmoothing = m_smoothing->value();
     m_type->addItem(tr("32-bit float"), int(WrittenType::Float32));
     m_type->addItem(tr("16-bit integer"), int(WrittenType::Int16));
-    m_sentence->setWordWrap(true);
-    m_sentence->setTextFormat(Qt::PlainText);
     m_sentence->setTextInteractionFlags(Qt::TextSelectableByMouse);
     m_progress->setRange(0, 1000);
     m_progress->setAccessibleName(tr("Progress"));
@@ -167,11 +165,6 @@ StraightenChoice StraightenDialog::choice() const
     if (const auto kind = Straightening(m_method->currentIndex()); kind != usualStraightening(*m_analysis))
         choice.kind = kind;
     return choice;
-}
-
-QString StraightenDialog::sentence() const
-{
-    return m_sentence->text();
 }
 
 void StraightenDialog::showWriting(bool isWriting)

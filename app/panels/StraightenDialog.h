@@ -29,7 +29,6 @@ public:
     /// For an event of the document's analysis. Precondition: it analyses a recording.
     StraightenDialog(const Document &document, const Event &event, Provenance &provenance, QWidget *parent = nullptr);
 
-    QString sentence() const;
     QDoubleSpinBox *target() const { return m_target; }
     QDoubleSpinBox *smoothing() const { return m_smoothing; }
     QComboBox *method() const { return m_method; }

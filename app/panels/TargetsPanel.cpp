@@ -32,7 +32,7 @@ TargetsPanel::TargetsPanel(Document &document, const std::vector<PingMap *> &map
       m_addTarget(new QPushButton(tr("Target at cursor"))), m_addLeg(new QPushButton(tr("Leg to cursor"))),
       m_remove(new QPushButton(tr("Remove target"))), m_clear(new QPushButton(tr("Remove all"))),
       m_save(new QPushButton(tr("Save scene…"))), m_new(new QPushButton(tr("New scene"))), m_unit(new QComboBox),
-      m_table(new QTableView), m_sentence(plainLabel())
+      m_table(new QTableView), m_sentence(panelSentence())
 {
     m_place->setCheckable(true);
     m_place->setToolTip(tr("Click a map to place a target in the ping shown; drag to draw its first leg"));
@@ -45,8 +45,6 @@ TargetsPanel::TargetsPanel(Document &document, const std::vector<PingMap *> &map
     m_unit->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     m_unit->setAccessibleName(tr("Unit of the rates"));
     m_unit->setToolTip(tr("Unit in which rates are displayed and set"));
-    m_sentence->setWordWrap(true);
-    m_sentence->setTextFormat(Qt::PlainText);
     buildTable();
     layOut();
     for (PingMap *map : maps)
@@ -141,11 +139,6 @@ void TargetsPanel::connectInputs()
     connect(m_table->selectionModel(), &QItemSelectionModel::currentChanged, this, &TargetsPanel::followCurrent);
     connect(&m_document, &Document::opened, this, &TargetsPanel::updateLayers);
     connect(&m_document, &Document::analysisChanged, this, &TargetsPanel::updateLayers);
-}
-
-QString TargetsPanel::sentence() const
-{
-    return m_sentence->text();
 }
 
 void TargetsPanel::setActive(bool isActive)

@@ -31,7 +31,6 @@ public:
 
     SceneEditor &editor() { return *m_editor; }
     QTableView *table() const { return m_table; }
-    QString sentence() const;
 
     /// Writes the scene as JSON, as `faintline-cli simulate` reads it. Throws Error.
     void save(const QString &path) const;

@@ -188,7 +188,7 @@ QString teethSentence(const std::vector<FamilyTooth> &teeth, const FamilySetting
 }
 
 WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *parent)
-    : QWidget(parent), m_document(document), m_viewports(viewports), m_sentence(plainLabel()), m_cure(plainLabel()),
+    : QWidget(parent), m_document(document), m_viewports(viewports), m_sentence(panelSentence()), m_cure(plainLabel()),
       m_remedy(new QPushButton), m_plot(new ChartPlot), m_teeth(new QTableWidget), m_ladder(new QTableWidget),
       m_why(
           this, &WhyPanel::question,
@@ -199,8 +199,6 @@ WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *
           },
           &WhyPanel::show)
 {
-    m_sentence->setWordWrap(true);
-    m_sentence->setTextFormat(Qt::PlainText);
     m_sentence->setContentsMargins(8, 6, 8, 4);
     m_cure->setWordWrap(true);
     m_cure->setFont(Theme::boldFont());
@@ -262,11 +260,6 @@ void WhyPanel::buildTables()
     m_teeth->horizontalHeaderItem(3)->setToolTip(
         tr("Evidence that the path would lose without this member; grey if none"));
     m_teeth->hide();
-}
-
-QString WhyPanel::sentence() const
-{
-    return m_sentence->text();
 }
 
 void WhyPanel::resizeEvent(QResizeEvent *event)

@@ -30,7 +30,6 @@ public:
 
     /// Null: none.
     const Explanation *explanation() const { return m_why.answer() ? &m_why.answer()->explanation : nullptr; }
-    QString sentence() const;
     /// Carries the remedy of a cell that was not detected.
     QPushButton *remedy() const { return m_remedy; }
     QTableWidget *ladder() const { return m_ladder; }

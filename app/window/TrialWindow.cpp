@@ -17,12 +17,10 @@ namespace faintline {
 
 TrialWindow::TrialWindow(QWidget *parent)
     : QWidget(parent, Qt::Window), m_workbench(new Workbench(m_document)), m_readOut(new ReadOut),
-      m_sentence(plainLabel()), m_previous(new QPushButton(tr("Previous trial"))),
+      m_sentence(panelSentence()), m_previous(new QPushButton(tr("Previous trial"))),
       m_next(new QPushButton(tr("Next trial"))), m_nextMissed(new QPushButton(tr("Next miss")))
 {
     setObjectName(QStringLiteral("trialWindow"));
-    m_sentence->setWordWrap(true);
-    m_sentence->setTextFormat(Qt::PlainText);
     m_sentence->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     m_nextMissed->setToolTip(tr("Next trial of this point in which the line was missed"));
     auto *top = new QHBoxLayout;
@@ -75,11 +73,6 @@ void TrialWindow::setBusy(bool isBusy)
 {
     for (QPushButton *button : {m_previous, m_next, m_nextMissed})
         button->setEnabled(!isBusy);
-}
-
-QString TrialWindow::sentence() const
-{
-    return m_sentence->text();
 }
 
 void TrialWindow::keyPressEvent(QKeyEvent *event)

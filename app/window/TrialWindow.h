@@ -27,7 +27,6 @@ public:
 
     Document &document() { return m_document; }
     Workbench &workbench() { return *m_workbench; }
-    QString sentence() const;
 
 signals:
     void stepRequested(int trials, bool onlyMissed);

@@ -5,6 +5,7 @@
 
 #include <QAbstractButton>
 #include <QFile>
+#include <QLabel>
 #include <QSettings>
 #include <QSignalSpy>
 #include <QTemporaryDir>
@@ -57,6 +58,13 @@ bool settle(const Part &part)
 inline bool settle(MainWindow &window)
 {
     return settle(window.controller());
+}
+
+/// What a panel says; empty if it says nothing.
+inline QString sentenceOf(const QWidget &panel)
+{
+    const auto *label = panel.findChild<QLabel *>(QStringLiteral("sentence"));
+    return label->isHidden() ? QString() : label->text();
 }
 
 inline bool openAndSettle(MainWindow &window, const QString &path, const AnalysisController::Adjust &adjust = {})

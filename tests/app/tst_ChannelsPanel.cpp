@@ -79,7 +79,7 @@ private slots:
         ChannelsPanel &panel = window->channels();
         QVERIFY(!isBusy(panel)); // nothing is computed for a hidden panel
         QVERIFY(showAndSettle(*window));
-        QVERIFY2(panel.sentence().isEmpty(), qPrintable(panel.sentence()));
+        QVERIFY2(sentenceOf(panel).isEmpty(), qPrintable(sentenceOf(panel)));
         QCOMPARE(titlesOf(panel), QStringList({"Channel 0, analysed", "Channel 1"}));
         const auto levelAt = [&](int place) {
             double sum = 0.0;
@@ -211,10 +211,10 @@ private slots:
     {
         const auto window = newWindow();
         window->showView("channels");
-        QVERIFY(!window->channels().sentence().isEmpty()); // nothing is open
+        QVERIFY(!sentenceOf(window->channels()).isEmpty()); // nothing is open
         QVERIFY(openAndSettle(*window, recordingOf(m_folder, 1), makeQuick));
         QVERIFY(showAndSettle(*window));
-        QCOMPARE(window->channels().sentence(), QString("This recording has only one channel."));
+        QCOMPARE(sentenceOf(window->channels()), QString("This recording has only one channel."));
         QCOMPARE(window->channels().pictures().count(), 0);
     }
 

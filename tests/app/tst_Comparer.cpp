@@ -63,7 +63,7 @@ private slots:
         QVERIFY(panel.differences().contains(QString::fromUtf8("sequential Markov → single-frame energy")));
         QVERIFY(panel.picture()->picture() == window.comparer().result()->difference);
         QTRY_VERIFY(window.comparer().cost().has_value());
-        QVERIFY(panel.sentence().contains("processor"));
+        QVERIFY(sentenceOf(panel).contains("processor"));
 
         // A click on what only A has found puts the cursor there.
         int row = -1;
@@ -98,7 +98,7 @@ private slots:
         QVERIFY(!window.comparer().isOfWhatIsOpen());
         QVERIFY(!window.comparer().result().has_value());
         QVERIFY(buttonOf(panel, "Compute A here")->isVisible());
-        QVERIFY(panel.sentence().contains("another source"));
+        QVERIFY(sentenceOf(panel).contains("another source"));
         buttonOf(panel, "Compute A here")->click();
         QTRY_VERIFY_WITH_TIMEOUT(window.comparer().result().has_value(), patience);
         QVERIFY(!buttonOf(panel, "Compute A here")->isVisible());

@@ -81,11 +81,11 @@ void tst_DopplerPanel::theIntervalsHoldTheTruth()
     QTest::keyClick(m_window.get(), Qt::Key_D);
     QVERIFY(panel().isVisible());
     QVERIFY(settle(panel()));
-    QVERIFY2(panel().report(), qPrintable(panel().sentence()));
+    QVERIFY2(panel().report(), qPrintable(sentenceOf(panel())));
     const DopplerFit &fit = panel().report()->fit;
     QVERIFY(fit.restHz.contains(restHz) && fit.metresPerSecond.contains(speed));
     QVERIFY(fit.rangeMetres.contains(range) && fit.closestSeconds.contains(closest));
-    QVERIFY2(panel().sentence().startsWith("Event "), qPrintable(panel().sentence()));
+    QVERIFY2(sentenceOf(panel()).startsWith("Event "), qPrintable(sentenceOf(panel())));
 
     const QTableWidget &table = *panel().table();
     QCOMPARE(table.rowCount(), 6);
@@ -172,7 +172,7 @@ void tst_DopplerPanel::withoutEventsThereIsNoFit()
     QVERIFY(!panel().report());
     QCOMPARE(panel().table()->rowCount(), 0);
     QVERIFY(panel().frequencies().chart().curves.empty());
-    QVERIFY2(panel().sentence().contains("no event"), qPrintable(panel().sentence()));
+    QVERIFY2(sentenceOf(panel()).contains("no event"), qPrintable(sentenceOf(panel())));
 }
 
 FAINTLINE_WINDOW_TEST(tst_DopplerPanel)

@@ -105,7 +105,7 @@ void tst_Evaluation::aPointOpensItsTrials()
     QVERIFY(opened.wait(patience));
     TrialWindow *window = m_window->trials().window();
     QVERIFY(window->isVisible());
-    QVERIFY2(window->sentence().startsWith("integrator at 3.0 dB: detected"), qPrintable(window->sentence()));
+    QVERIFY2(sentenceOf(*window).startsWith("integrator at 3.0 dB: detected"), qPrintable(sentenceOf(*window)));
     QVERIFY(window->workbench().output()->picture());
     QCOMPARE(window->document().truth().lines.size(), std::size_t(1));
     QVERIFY(!window->document().shownEvents().empty());
@@ -310,7 +310,7 @@ void tst_Evaluation::theNoiseIsMeasuredWhileItIsSeen()
     m_window->showView("noisefit");
     QVERIFY(settle(m_window->noiseFit()));
     QCOMPARE(m_window->noiseFit().table()->rowCount(), 6);
-    QVERIFY2(m_window->noiseFit().sentence().contains("law"), qPrintable(m_window->noiseFit().sentence()));
+    QVERIFY2(sentenceOf(m_window->noiseFit()).contains("law"), qPrintable(sentenceOf(m_window->noiseFit())));
     QCOMPARE(m_window->noiseFit().plot().chart().curves.size(), std::size_t(7));
 }
 

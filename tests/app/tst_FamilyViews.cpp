@@ -132,8 +132,8 @@ void tst_FamilyViews::whyTellsWhatEachMemberBrought()
         QVERIFY2(isMissing ? std::abs(db) < 2.0 : db > 4.0, qPrintable(teeth.item(row, 2)->text()));
         QCOMPARE(teeth.item(row, 3)->text().startsWith('+'), !isMissing);
     }
-    QVERIFY2(why.sentence().endsWith("4 of 5 members raise the evidence; it is no smaller without 3×."),
-             qPrintable(why.sentence()));
+    QVERIFY2(sentenceOf(why).endsWith("4 of 5 members raise the evidence; it is no smaller without 3×."),
+             qPrintable(sentenceOf(why)));
 }
 
 void tst_FamilyViews::singleLinesHaveNoTeeth()

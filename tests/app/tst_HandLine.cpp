@@ -132,7 +132,7 @@ void tst_HandLine::besideTheLineThereIsNothing()
     QVERIFY(std::abs(comparison.own.meanPower - 1.0) < error);
     QVERIFY(comparison.own.logLikelihoodRatio < 0.0);
     QVERIFY(comparison.detector.logLikelihoodRatio > 50.0);
-    QVERIFY(panel().sentence().contains("behind"));
+    QVERIFY(sentenceOf(panel()).contains("behind"));
 }
 
 void tst_HandLine::coveredNothingIsGivenAway()
@@ -145,12 +145,12 @@ void tst_HandLine::coveredNothingIsGivenAway()
     QVERIFY(pane->childAt(pane->rect().center()) != m_window->workbench().output()->canvas());
     panel().line().setPoints({{10.0, 130.0}, {50.0, 210.0}});
     QTRY_VERIFY_WITH_TIMEOUT(isSettled(), patience);
-    QVERIFY(!panel().sentence().contains("track"));
+    QVERIFY(!sentenceOf(panel()).contains("track"));
 
     QTest::mouseClick(buttonOf(panel(), "Reveal the statistic"), Qt::LeftButton);
     QVERIFY(!panel().isCovered());
     QVERIFY(input().layers().testFlag(WaterfallView::TruthLayer));
-    QVERIFY(panel().sentence().contains("track"));
+    QVERIFY(sentenceOf(panel()).contains("track"));
     QVERIFY(panel().comparison()->meanHz < 5.0);
 }
 

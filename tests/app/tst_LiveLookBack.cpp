@@ -83,12 +83,12 @@ void tst_LiveLookBack::saysWhyMeanwhile()
     window->showView("why");
     const auto *why = window->findChild<WhyPanel *>();
     document.viewport().setCursor({70.0, 290.0});
-    QTRY_VERIFY_WITH_TIMEOUT(why->sentence().contains(QStringLiteral("add up to")), patience);
-    QVERIFY2(why->sentence().startsWith(QStringLiteral("Followed by a track")), qPrintable(why->sentence()));
+    QTRY_VERIFY_WITH_TIMEOUT(sentenceOf(*why).contains(QStringLiteral("add up to")), patience);
+    QVERIFY2(sentenceOf(*why).startsWith(QStringLiteral("Followed by a track")), qPrintable(sentenceOf(*why)));
     feeder.allow(90.0);
     QTRY_VERIFY_WITH_TIMEOUT(document.live().time.last() > 88.0, patience);
     document.viewport().setCursor({86.0, 340.0}); // noise, and newer than what was looked at before
-    QTRY_VERIFY_WITH_TIMEOUT(why->sentence().startsWith(QStringLiteral("Not detected")), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(sentenceOf(*why).startsWith(QStringLiteral("Not detected")), patience);
     window->live().stop();
     QTRY_VERIFY_WITH_TIMEOUT(!window->live().isRunning(), patience);
 }

@@ -231,7 +231,7 @@ private slots:
         QVERIFY(settle(states));
         QVERIFY(states.view()->picture());
         QCOMPARE(states.view()->picture()->cells(), Index(3)); // range × its three rates
-        QVERIFY2(states.sentence().startsWith("Ping 19:"), qPrintable(states.sentence()));
+        QVERIFY2(sentenceOf(states).startsWith("Ping 19:"), qPrintable(sentenceOf(states)));
 
         states.setAxes(0, 1);
         states.setMaximised(true);
@@ -287,7 +287,7 @@ private slots:
         w->showView("noisefit");
         QVERIFY(settle(w->noiseFit()));
         const auto *table = w->noiseFit().findChild<QTableWidget *>();
-        QVERIFY2(table->rowCount() > 0, qPrintable(w->noiseFit().sentence()));
+        QVERIFY2(table->rowCount() > 0, qPrintable(sentenceOf(w->noiseFit())));
         for (int row = 0; row < table->rowCount(); ++row)
             QVERIFY2(table->item(row, 0)->text().endsWith(QString::fromUtf8("°")),
                      qPrintable(table->item(row, 0)->text()));
@@ -302,7 +302,7 @@ private slots:
         QVERIFY(settle(w->why()));
         WhyPanel &why = w->why();
         const Explanation &explanation = *why.explanation();
-        QVERIFY2(why.sentence().startsWith("Detected"), qPrintable(why.sentence()));
+        QVERIFY2(sentenceOf(why).startsWith("Detected"), qPrintable(sentenceOf(why)));
         QCOMPARE(why.ladder()->rowCount(), int(explanation.steps.size()));
         QCOMPARE(why.ladder()->columnCount(), 8); // time, range, bearing, λ, ln P, ln K, sum, second best
         QVERIFY(why.ladder()->horizontalHeaderItem(1)->text().startsWith("Range"));
@@ -335,7 +335,7 @@ private slots:
         for (const Curve::Point &point : w->latency().histogramPlot()->chart().curves[0].points)
             counted += point.y;
         QCOMPARE(counted, 6.0 * pd.curves[0].points.back().y); // two targets, three runs
-        QVERIFY(w->latency().sentence().contains("6 targets in 3 runs"));
+        QVERIFY(sentenceOf(w->latency()).contains("6 targets in 3 runs"));
     }
 
     void aSessionComesBackAsItWas()

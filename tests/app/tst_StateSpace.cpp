@@ -97,7 +97,7 @@ private slots:
         QVERIFY(settle(m_window->states()));
         QVERIFY(std::abs(states.marks().best()->column - (200.0 + 0.5 * seconds)) < 3.0);
         QVERIFY(!states.marks().paths().empty());
-        const QString there = states.sentence();
+        const QString there = sentenceOf(states);
         QVERIFY2(there.startsWith(QStringLiteral("Frame %1 at").arg(analysis.time().nearest(30.0) + 1)),
                  qPrintable(there));
         // Step on, and back: the same picture.
@@ -108,10 +108,10 @@ private slots:
         const auto before = row();
         QTest::keyClick(m_window->workbench().output(), Qt::Key_L);
         QVERIFY(settle(m_window->states()));
-        QVERIFY(states.sentence() != there);
+        QVERIFY(sentenceOf(states) != there);
         QTest::keyClick(m_window->workbench().output(), Qt::Key_J);
         QVERIFY(settle(m_window->states()));
-        QCOMPARE(states.sentence(), there);
+        QCOMPARE(sentenceOf(states), there);
         QCOMPARE(row(), before);
         // A click in the slice takes its frequency, not its slope.
         const QPointF at = states.view()->positionOf({states.view()->viewport()->time().high * 0.8, 300.0});
@@ -183,7 +183,7 @@ private slots:
         QVERIFY(settle(m_window->states()));
         QVERIFY(law().isVisible());
         const std::vector<double> before = setting();
-        const QString words = m_window->states().law().sentence();
+        const QString words = sentenceOf(m_window->states().law());
         QVERIFY(words.contains(QStringLiteral("1.10 nat")));
         const int steps = m_window->document().undoStack().count();
 
@@ -192,7 +192,7 @@ private slots:
         QVERIFY2(std::abs(setting()[0] - (before[0] + 0.3)) < 0.02, qPrintable(QString::number(setting()[0])));
         QVERIFY(std::abs(total(setting()) - 1.0) < 1e-9);
         QCOMPARE(m_window->document().undoStack().count(), steps + 1);
-        QVERIFY(m_window->states().law().sentence() != words);
+        QVERIFY(sentenceOf(m_window->states().law()) != words);
         QVERIFY(settle(*m_window));
         QCOMPARE(m_window->document().analysis()->model.space.axes()[0].rateChange, setting());
 

@@ -81,7 +81,7 @@ void tst_StraightenDialog::showsTheLineBeforeAndAfter()
     // 10 Hz in 50 s: 500 cells against one.
     QVERIFY2(after.y > before.y + 8.0, qPrintable(QStringLiteral("%1 %2").arg(before.y).arg(after.y)));
     QVERIFY(std::abs(after.x - dialog()->target()->value()) < 0.1);
-    QVERIFY2(dialog()->sentence().contains("dB over its surroundings before"), qPrintable(dialog()->sentence()));
+    QVERIFY2(sentenceOf(*dialog()).contains("dB over its surroundings before"), qPrintable(sentenceOf(*dialog())));
 }
 
 void tst_StraightenDialog::writesTheCommandLinesFile()
@@ -141,11 +141,11 @@ void tst_StraightenDialog::saysWhatCannotBeDone()
 {
     const QByteArray original = readBytes(m_path.toStdString());
     dialog()->writeTo(m_path);
-    QVERIFY2(dialog()->sentence().contains("is an input and would be replaced"), qPrintable(dialog()->sentence()));
+    QVERIFY2(sentenceOf(*dialog()).contains("is an input and would be replaced"), qPrintable(sentenceOf(*dialog())));
     QCOMPARE(readBytes(m_path.toStdString()), original);
     dialog()->writeTo(m_folder.filePath("straight.txt"));
     QVERIFY(settle(*dialog()));
-    QVERIFY2(dialog()->sentence().contains("straight.txt"), qPrintable(dialog()->sentence()));
+    QVERIFY2(sentenceOf(*dialog()).contains("straight.txt"), qPrintable(sentenceOf(*dialog())));
     QVERIFY(!QFile::exists(m_folder.filePath("straight.txt")));
     QTest::keyClick(dialog(), Qt::Key_Escape);
     QTRY_VERIFY(!dialog());

@@ -79,14 +79,14 @@ void tst_Targets::whatTheModelFollowsIsShownWhileALegIsDrawn()
     QTest::mouseMove(canvas(), at(3400.0, 180.0));
     const auto reach = panel().editor().reach();
     QVERIFY(reach.size() > 4);
-    QVERIFY2(panel().sentence().startsWith("Dotted: "), qPrintable(panel().sentence()));
+    QVERIFY2(sentenceOf(panel()).startsWith("Dotted: "), qPrintable(sentenceOf(panel())));
     const auto [nearest, farthest] = std::ranges::minmax(reach, {}, &SceneEditor::Place::along);
     QTest::mouseMove(canvas(), at(farthest.along, 180.0));
     QTest::mouseRelease(canvas(), Qt::LeftButton, {}, at(farthest.along, 180.0));
     QVERIFY(std::abs(last().legs[0].rangeCellsPerPing - 1.0) < 0.1); // the fastest of the nine rates
     QVERIFY(nearest.along < 3150.0);
     QVERIFY(panel().editor().reach().empty());
-    QVERIFY(!panel().sentence().startsWith("Dotted: "));
+    QVERIFY(!sentenceOf(panel()).startsWith("Dotted: "));
 }
 
 void tst_Targets::furtherDragsAndClicksAddLegs()
@@ -108,7 +108,7 @@ void tst_Targets::furtherDragsAndClicksAddLegs()
     // No ping is left for a fourth leg.
     QTest::mouseClick(canvas(), Qt::LeftButton, Qt::ShiftModifier, at(3900.0, 200.0));
     QCOMPARE(last().legs.size(), std::size_t(3));
-    QVERIFY2(panel().sentence().startsWith("Target T1, leg 4: has no ping left"), qPrintable(panel().sentence()));
+    QVERIFY2(sentenceOf(panel()).startsWith("Target T1, leg 4: has no ping left"), qPrintable(sentenceOf(panel())));
 }
 
 void tst_Targets::cornersAreDraggedAndRemoved()
@@ -280,7 +280,7 @@ void tst_Targets::aNewSceneHasNoTargets()
     QVERIFY(opened.wait(patience));
     QVERIFY(scene().targets.empty());
     QCOMPARE(panel().table()->model()->rowCount(), 0);
-    QVERIFY(panel().sentence().startsWith("No targets"));
+    QVERIFY(sentenceOf(panel()).startsWith("No targets"));
     QCOMPARE(panel().editor().rateUnit(), RateUnit::PerSecond);
     m_window->controller().stop();
 }
@@ -302,7 +302,7 @@ void tst_Targets::otherPingsAreNotEdited()
     QVERIFY(openAndSettle(*m_window, lines));
     QVERIFY(!panel().editor().scene());
     QVERIFY(!buttonOf(panel(), "Place on the map")->isEnabled());
-    QVERIFY(panel().sentence().contains("simulated scenes"));
+    QVERIFY(sentenceOf(panel()).contains("simulated scenes"));
     QCOMPARE(panel().table()->model()->rowCount(), 0);
 }
 

@@ -69,7 +69,7 @@ void tst_WhyPanel::termsAddUp()
     QFETCH(QString, begins);
     askAt(seconds, hz);
     WhyPanel &why = m_window->why();
-    QVERIFY2(why.sentence().startsWith(begins), qPrintable(why.sentence()));
+    QVERIFY2(sentenceOf(why).startsWith(begins), qPrintable(sentenceOf(why)));
     const Explanation &explanation = *why.explanation();
     double sum = 0.0;
     for (const PathStep &step : explanation.steps)
@@ -101,7 +101,7 @@ void tst_WhyPanel::otherDetectorsSayThatTheyHaveNoPath()
     m_window->controller().edit("detector.kind", std::string("pOfN"), "detector");
     QVERIFY(analysed.wait(patience));
     QVERIFY(settle(m_window->why()));
-    QVERIFY2(m_window->why().sentence().contains("path"), qPrintable(m_window->why().sentence()));
+    QVERIFY2(sentenceOf(m_window->why()).contains("path"), qPrintable(sentenceOf(m_window->why())));
     QCOMPARE(m_window->why().ladder()->rowCount(), 0);
 }
 
@@ -115,7 +115,7 @@ void tst_WhyPanel::theNextRecordingHasNoPathYet()
     QString sentence;
     int rows = -1;
     const auto connection = QObject::connect(&m_window->document(), &Document::opened, m_window.get(), [&] {
-        sentence = why.sentence();
+        sentence = sentenceOf(why);
         rows = why.ladder()->rowCount();
     });
     QVERIFY(openAndSettle(*m_window, writeFile(m_folder, "noise.json",

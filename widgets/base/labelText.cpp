@@ -80,4 +80,12 @@ QLabel *plainLabel()
     return label;
 }
 
+QLabel *panelSentence()
+{
+    QLabel *label = plainLabel();
+    label->setObjectName(QStringLiteral("sentence"));
+    label->setWordWrap(true);
+    return label;
+}
+
 } // namespace faintline

@@ -40,5 +40,7 @@ QString asHtml(const QString &text);
 
 /// A label that shows its text literally, including tags.
 QLabel *plainLabel();
+/// The same for sentences; its name is "sentence".
+QLabel *panelSentence();
 
 } // namespace faintline
