@@ -1,7 +1,6 @@
 #include "app/base/Inquiry.h"
 
 #include "app/base/VisibilityWatcher.h"
-#include "widgets/base/labelText.h"
 
 #include <QLabel>
 
@@ -9,50 +8,39 @@ namespace faintline {
 
 InquiryBase::InquiryBase(QObject *parent) : JobRunner(parent)
 {
-    connect(this, &JobRunner::cancelled, this, &InquiryBase::forgetQuestion);
-    connect(this, &JobRunner::failed, this, [this](const Error &error) {
-        forgetAnswer();
-        say(messageText(error.what()));
-    });
     connect(this, &JobRunner::progressed, this, [this](double fraction, const QString &what) {
         constexpr qint64 longMs = 300;
-        if (m_label && m_began.elapsed() > longMs)
-            m_label->setText(tr("%1, %2 %").arg(what).arg(int(100.0 * fraction)));
+        if (m_sentence && m_began.elapsed() > longMs)
+            m_sentence->setText(tr("%1, %2 %").arg(what).arg(int(100.0 * fraction)));
     });
 }
 
-void InquiryBase::watch(QWidget &panel)
+void InquiryBase::watch(QWidget &panel, QLabel *sentence)
 {
+    m_sentence = sentence;
     m_sight = new VisibilityWatcher(panel);
     connect(m_sight, &VisibilityWatcher::came, this, &InquiryBase::ask);
 }
 
-void InquiryBase::ask()
+bool InquiryBase::isSeen() const
 {
-    QString whyNot;
-    const Found found = read(whyNot);
-    if (found == Found::Known)
-        return;
-    if (found == Found::New && (!m_sight || m_sight->isOn())) {
-        m_whyNot.clear();
-        m_began.start();
-        return start(job(), m_pauseMs);
-    }
-    cancel();
-    if (found == Found::New)
-        return;
-    forgetQuestion();
-    if (found == Found::Nothing)
-        return;
-    forgetAnswer();
-    say(whyNot);
+    return !m_sight || m_sight->isOn();
+}
+
+void InquiryBase::begin(Job job)
+{
+    if (m_pauseMs > 0)
+        cancel(); // an answer to the previous question would be mistaken for this one's
+    m_whyNot.clear();
+    m_began.start();
+    start(std::move(job), m_pauseMs);
 }
 
 void InquiryBase::say(const QString &whyNot)
 {
     m_whyNot = whyNot;
-    if (m_label)
-        m_label->setText(whyNot);
+    if (m_sentence)
+        m_sentence->setText(whyNot);
     emit changed();
 }
 

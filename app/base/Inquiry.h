@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/base/JobRunner.h"
+#include "widgets/base/labelText.h"
 
 #include <QElapsedTimer>
 
@@ -23,12 +24,11 @@ class InquiryBase : public JobRunner
     Q_OBJECT
 
 public:
-    /// Asks only while the panel is seen, and when it comes into sight.
-    void watch(QWidget &panel);
+    /// Asks only while the panel is seen, and when it comes into sight. Its sentence says why there is no answer, and the
+    /// progress of what takes long.
+    void watch(QWidget &panel, QLabel *sentence = nullptr);
     /// Waits until the question has been the same for as long.
     void setPause(int ms) { m_pauseMs = ms; }
-    /// Shows there why there is no answer, and the progress of what takes long.
-    void sayIn(QLabel &label) { m_label = &label; }
     /// Asks at each of these signals.
     template <class Sender, class... Signals>
     void askAt(const Sender &sender, Signals... changes)
@@ -40,25 +40,21 @@ public:
     const QString &whyNot() const { return m_whyNot; }
 
 public slots:
-    void ask();
+    virtual void ask() = 0;
 
 signals:
     void changed(); ///< the answer, or the reason why there is none
 
 protected:
-    enum class Found { Nothing, Reason, Known, New };
-
     explicit InquiryBase(QObject *parent);
 
-    virtual Found read(QString &whyNot) = 0; ///< the question as it is now, or the reason
-    virtual Job job() = 0;                   ///< that answers it
-    virtual void forgetQuestion() = 0;
-    virtual void forgetAnswer() = 0;
+    bool isSeen() const;
+    void begin(Job job);
     void say(const QString &whyNot);
 
 private:
     VisibilityWatcher *m_sight = nullptr;
-    QLabel *m_label = nullptr;
+    QLabel *m_sentence = nullptr;
     int m_pauseMs = 0;
     QElapsedTimer m_began;
     QString m_whyNot;
@@ -66,10 +62,10 @@ private:
 
 /// A question about a document and its answer, which a panel shows.
 ///
-/// `question` gives it, or the reason why there is none; `compute` answers it on a worker, and knows nothing
-/// else; `show` is called in the panel's thread whenever there is another answer, or none. Asked again, it computes
-/// nothing if the question is the same; otherwise the newest question replaces the previous one. An answer stays until
-/// there is another one or the reason why there is none. To be declared last in its class: its job ends first.
+/// `question` gives it, or the reason why there is none; `compute` answers it on a worker, and knows nothing else; `show`
+/// is called in the panel's thread whenever there is another answer, or none. Asked again, it computes nothing if the
+/// question is the same; otherwise the newest question replaces the previous one. An answer stays until there is another
+/// one or the reason why there is none. To be declared last in its class: its job ends first.
 template <class Answer, class... Inputs>
 class Inquiry final : public InquiryBase
 {
@@ -96,6 +92,8 @@ public:
                   return std::apply(answerTo, input);
               })
     {
+        connect(this, &JobRunner::cancelled, this, [this] { m_asked.reset(); });
+        connect(this, &JobRunner::failed, this, [this](const Error &error) { refuse(messageText(error.what())); });
         connect(this, &InquiryBase::changed, parent, [=, this] {
             if constexpr (std::is_invocable_v<Show, Parent *,
                                               const Answer *> || std::is_invocable_v<Show, const Answer *>)
@@ -108,6 +106,25 @@ public:
     static Question questionIf(bool isOne, const QString &whyNot, const Inputs &...inputs)
     {
         return isOne ? Question(Input(inputs...)) : Question(whyNot);
+    }
+
+    void ask() override
+    {
+        const Question now = m_question();
+        const auto *input = std::get_if<Input>(&now);
+        if (input && m_asked && *m_asked == *input)
+            return;
+        if (input && isSeen()) {
+            begin(jobFor(*input));
+            m_asked = *input;
+            return;
+        }
+        cancel();
+        if (input)
+            return;
+        m_asked.reset();
+        if (const auto *whyNot = std::get_if<QString>(&now))
+            refuse(*whyNot);
     }
 
     /// Null: none.
@@ -132,26 +149,9 @@ private:
             return function(arguments...);
     }
 
-    Found read(QString &whyNot) override
+    Job jobFor(const Input &asked)
     {
-        Question now = m_question();
-        if (const auto *why = std::get_if<QString>(&now)) {
-            whyNot = *why;
-            return Found::Reason;
-        }
-        auto *input = std::get_if<Input>(&now);
-        if (!input)
-            return Found::Nothing;
-        if (m_asked && *m_asked == *input)
-            return Found::Known;
-        m_next = std::move(*input);
-        return Found::New;
-    }
-
-    Job job() override
-    {
-        m_asked = std::exchange(m_next, {});
-        return [this, input = *m_asked, compute = m_compute](const RunContext &context) -> Delivery {
+        return [this, input = asked, compute = m_compute](const RunContext &context) -> Delivery {
             const auto delivery = [this, &input](Answer answer) -> Delivery {
                 return [this, answered = std::make_shared<const Answered>(input, std::move(answer))] {
                     m_answered = answered;
@@ -162,12 +162,14 @@ private:
         };
     }
 
-    void forgetQuestion() override { m_asked.reset(); }
-    void forgetAnswer() override { m_answered.reset(); }
+    void refuse(const QString &whyNot)
+    {
+        m_answered.reset();
+        say(whyNot);
+    }
 
     std::function<Question()> m_question;
     std::function<Answer(const Input &, const RunContext &, const Partly &)> m_compute;
-    std::optional<Input> m_next;
     std::optional<Input> m_asked; ///< being answered, or answered
     std::shared_ptr<const Answered> m_answered;
 };

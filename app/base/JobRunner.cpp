@@ -46,8 +46,8 @@ JobRunner::~JobRunner()
 
 void JobRunner::start(Job job, int pauseMs)
 {
-    discard();
     m_next = std::move(job);
+    m_pause.stop();
     pauseMs > 0 ? m_pause.start(pauseMs) : begin();
     m_isRunning = true;
     emit busyChanged(true);
@@ -55,6 +55,7 @@ void JobRunner::start(Job job, int pauseMs)
 
 void JobRunner::begin()
 {
+    discard();
     {
         const std::lock_guard lock(m_mutex);
         m_request = {m_newest, std::exchange(m_next, {}), {}};
@@ -68,6 +69,7 @@ void JobRunner::cancel()
 {
     if (!m_isRunning)
         return;
+    m_pause.stop();
     discard();
     end();
     emit cancelled();
@@ -76,7 +78,6 @@ void JobRunner::cancel()
 void JobRunner::discard()
 {
     ++m_newest;
-    m_pause.stop();
     const std::lock_guard lock(m_mutex);
     m_request.stop.request_stop();
     m_request.job = {};
@@ -142,6 +143,8 @@ void JobRunner::run(const Request &request)
 
     const auto fail = [&](const Error &error) {
         post(request.number, [this, error] {
+            if (m_pause.isActive()) // the next job is waiting
+                return;
             end();
             emit failed(error);
         });
@@ -149,15 +152,17 @@ void JobRunner::run(const Request &request)
     try {
         Delivery deliver = request.job(context);
         post(request.number, [this, number = request.number, deliver = std::move(deliver)] {
-            m_isRunning = false;
+            m_isRunning = m_pause.isActive();
             deliver();
-            if (number != m_newest)
-                return; // a delivery may start the next job
+            if (number != m_newest || m_pause.isActive()) // a delivery may start the next job
+                return;
             end();
             emit finished();
         });
     } catch (const Cancelled &) {
         post(request.number, [this] {
+            if (m_pause.isActive())
+                return;
             end();
             emit cancelled();
         });

@@ -31,7 +31,7 @@ public:
     explicit JobRunner(QObject *parent = nullptr);
     ~JobRunner() override;
 
-    /// `pauseMs`: for so long, the job may still be replaced before it begins.
+    /// `pauseMs`: for so long the previous job goes on, and this one may be replaced before it begins.
     void start(Job job, int pauseMs = 0);
     void cancel();
 

@@ -82,18 +82,15 @@ FrameStretch Closeup::wanted() const
 void Closeup::follow()
 {
     const FrameStretch stretch = wanted();
-    if (m_analysis != current() || (stretch.isEmpty() && m_runner.isRunning()))
-        stop();
-    if (stretch.isEmpty() || (m_analysis && m_stretch == stretch))
+    if (m_analysis != current() || (stretch.isEmpty() && m_runner.isRunning())) {
+        m_runner.cancel();
+        forget();
+    }
+    if (stretch.isEmpty() || (m_analysis && m_stretch == stretch && m_waiting.isEmpty()))
         return;
-    m_stretch = stretch;
-    m_analysis = current();
-    m_inputStretch.reset();
-    m_statisticStretch.reset();
-    for (WaterfallView *view : {&m_input, &m_output})
-        if (view->shownPicture() == view->picture())
-            view->setCloseup(nullptr); // one that is out of sight takes no memory beside the next
-    const auto job = [this, analysis = m_analysis, stretch](const RunContext &context) -> JobRunner::Delivery {
+    m_waiting = stretch;
+    const auto job = [this, analysis = current(), stretch](const RunContext &context) -> JobRunner::Delivery {
+        m_runner.deliver([this, analysis, stretch] { begin(analysis, stretch); });
         m_runner.deliver([this, input = inputCloseup(*analysis, stretch, byteBudget, context)] {
             m_inputStretch = input;
             show();
@@ -106,9 +103,19 @@ void Closeup::follow()
     m_runner.start(job, closeupPauseMs);
 }
 
-void Closeup::stop()
+void Closeup::begin(const std::shared_ptr<const Analysis> &analysis, const FrameStretch &stretch)
 {
-    m_runner.cancel();
+    forget();
+    m_analysis = analysis;
+    m_stretch = stretch;
+    for (WaterfallView *view : {&m_input, &m_output})
+        if (view->shownPicture() == view->picture())
+            view->setCloseup(nullptr); // one that is out of sight takes no memory beside the next
+}
+
+void Closeup::forget()
+{
+    m_waiting = {};
     m_analysis.reset();
     m_stretch = {};
     m_inputStretch.reset();

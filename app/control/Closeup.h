@@ -35,13 +35,15 @@ private:
     FrameStretch wanted() const;
     void follow();
     void show();
-    void stop();
+    void begin(const std::shared_ptr<const Analysis> &analysis, const FrameStretch &stretch);
+    void forget();
 
     Document &m_document;
     WaterfallView &m_input;
     WaterfallView &m_output;
     std::shared_ptr<const Analysis> m_analysis; ///< that all of this is of
     FrameStretch m_stretch;                     ///< shown, or being made
+    FrameStretch m_waiting;                     ///< to be made next
     std::shared_ptr<const PeakPyramid> m_inputStretch;
     std::shared_ptr<const PeakPyramid> m_statisticStretch;
     JobRunner m_runner{this}; ///< last, so that its jobs end first

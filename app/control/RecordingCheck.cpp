@@ -39,8 +39,8 @@ RecordingCheck::RecordingCheck(const Document &document, QObject *parent)
     });
     connect(&document, &Document::opened, this, [this] { m_correction.reset(); });
     for (const auto outdated : {&Document::opened, &Document::settingsChanged, &Document::analysisChanged}) {
-        connect(&document, outdated, this, &RecordingCheck::forgetCount);
         m_look.askAt(document, outdated);
+        connect(&document, outdated, this, &RecordingCheck::forgetCount);
     }
 }
 
@@ -54,12 +54,14 @@ void RecordingCheck::forgetCount()
 
 const NoiseLawCheck *RecordingCheck::law() const
 {
-    return m_look.answer() && m_look.answer()->law ? &*m_look.answer()->law : nullptr;
+    const Look *look = m_look.answerAbout(m_document.analysis());
+    return look && look->law ? &*look->law : nullptr;
 }
 
 std::vector<Advice> RecordingCheck::advice() const
 {
-    return m_look.answer() ? m_look.answer()->advice : std::vector<Advice>();
+    const Look *look = m_look.answerAbout(m_document.analysis());
+    return look ? look->advice : std::vector<Advice>();
 }
 
 void RecordingCheck::startCount()

@@ -161,8 +161,7 @@ void DopplerPanel::connectInputs()
         if (isBusy && !report())
             m_sentence->setText(tr("Fitting …"));
     });
-    m_fit.watch(*this);
-    m_fit.sayIn(*m_sentence);
+    m_fit.watch(*this, m_sentence);
     m_fit.askAt(*m_centre, &QDoubleSpinBox::valueChanged);
     m_fit.askAt(*m_events.table()->selectionModel(), &QItemSelectionModel::selectionChanged);
     m_fit.askAt(m_document, &Document::opened, &Document::shownEventsChanged);

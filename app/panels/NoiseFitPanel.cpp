@@ -115,8 +115,7 @@ NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
     layout->addWidget(m_sentence);
     layout->addWidget(splitter, 1);
 
-    m_fit.watch(*this);
-    m_fit.sayIn(*m_sentence);
+    m_fit.watch(*this, m_sentence);
     m_fit.askAt(document, &Document::opened, &Document::analysisChanged);
     m_fit.ask();
 }

@@ -151,8 +151,7 @@ void StateSlicePanel::connectDocument()
     connect(&m_document, &Document::analysisChanged, this, &StateSlicePanel::fillAxes);
     connect(&m_document, &Document::shownEventsChanged, this, &StateSlicePanel::placeMarks);
     connect(&m_document.viewport(), &Viewport::spanChanged, this, &StateSlicePanel::takeFrequencies);
-    m_cut.watch(*this);
-    m_cut.sayIn(*m_sentence);
+    m_cut.watch(*this, m_sentence);
     m_cut.askAt(m_document, &Document::opened);
     m_cut.askAt(m_viewports, &PingViewports::placeChanged);
     m_cut.askAt(m_document.viewport(), &Viewport::cursorChanged);

@@ -234,8 +234,7 @@ WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *
     whole->addWidget(area);
 
     m_why.setPause(pauseMs);
-    m_why.watch(*this);
-    m_why.sayIn(*m_sentence);
+    m_why.watch(*this, m_sentence);
     m_why.askAt(document, &Document::opened, &Document::analysisChanged);
     m_why.askAt(document.viewport(), &Viewport::cursorChanged);
     m_why.askAt(viewports, &PingViewports::placeChanged);
