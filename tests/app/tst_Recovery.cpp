@@ -24,17 +24,17 @@ QString writeScene(const QTemporaryDir &folder)
                      R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": []})");
 }
 
-std::unique_ptr<MainWindow> openedWindow(const QString &scene, const QString &recoveryFolder)
+std::unique_ptr<MainWindow> openedWindow(const QString &scenePath, const QString &recoveryFolder)
 {
     auto window = newWindow({1440, 900}, nullptr, recoveryFolder);
-    openAndSettle(*window, scene);
+    openAndSettle(*window, scenePath);
     return window;
 }
 
 /// The program that is killed: it edits, tells that its work is kept, and waits for its end.
-int beKilled(const QString &scene, const QString &recoveryFolder)
+int beKilled(const QString &scenePath, const QString &recoveryFolder)
 {
-    const auto window = openedWindow(scene, recoveryFolder);
+    const auto window = openedWindow(scenePath, recoveryFolder);
     QSignalSpy kept(&window->recovery(), &Recovery::kept);
     window->controller().edit("decide.falseAlarmsPerHour", 7.0, "false alarms");
     kept.wait(patience);
@@ -47,9 +47,9 @@ int beKilled(const QString &scene, const QString &recoveryFolder)
 }
 
 /// One edit after the other, each told of as soon as it is kept.
-int editUntilKilled(const QString &scene, const QString &recoveryFolder)
+int editUntilKilled(const QString &scenePath, const QString &recoveryFolder)
 {
-    const auto window = openedWindow(scene, recoveryFolder);
+    const auto window = openedWindow(scenePath, recoveryFolder);
     QSignalSpy kept(&window->recovery(), &Recovery::kept);
     for (int version = 2;; ++version) { // 1 is the default
         window->controller().edit("decide.falseAlarmsPerHour", double(version), "false alarms");
@@ -92,10 +92,10 @@ void tst_Recovery::keptAsLongAsItIsUnsaved()
 void tst_Recovery::survivesAKill()
 {
     QTemporaryDir folder;
-    const QString scene = writeScene(folder);
+    const QString scenePath = writeScene(folder);
     const QString recovery = folder.filePath("recovery");
     QProcess program;
-    program.start(QCoreApplication::applicationFilePath(), {"tst_Recovery", "--be-killed", scene, recovery});
+    program.start(QCoreApplication::applicationFilePath(), {"tst_Recovery", "--be-killed", scenePath, recovery});
     QVERIFY(program.waitForReadyRead(patience));
     QCOMPARE(program.readLine().trimmed(), QByteArray("kept"));
     QVERIFY(Recovery::leftBehind(recovery).isEmpty());
@@ -128,13 +128,13 @@ void tst_Recovery::editsSurviveKillsAtAnyMoment()
     const int kills =
         qEnvironmentVariableIsSet("FAINTLINE_KILLS") ? qEnvironmentVariableIntValue("FAINTLINE_KILLS") : 2;
     QTemporaryDir folder;
-    const QString scene = writeScene(folder);
+    const QString scenePath = writeScene(folder);
     const QString recovery = folder.filePath("recovery");
     QRandomGenerator random(1);
     for (int kill = 0; kill < kills; ++kill) {
         QProcess program;
         program.start(QCoreApplication::applicationFilePath(),
-                      {"tst_Recovery", "--edit-until-killed", scene, recovery});
+                      {"tst_Recovery", "--edit-until-killed", scenePath, recovery});
         int version = 0;
         const auto listen = [&] {
             while (program.canReadLine())

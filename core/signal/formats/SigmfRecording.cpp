@@ -108,7 +108,7 @@ struct SigmfRecording::Meta {
         Index inFile;
     };
     /// A capture's time, of which the place is known.
-    struct Stamp {
+    struct CaptureTime {
         Index number;            ///< of its first sample
         Index inTime;            ///< place of that
         double startUnixSeconds; ///< of the recording, by this time
@@ -120,7 +120,7 @@ struct SigmfRecording::Meta {
     std::optional<double> startUnixSeconds;
     std::vector<std::string> notes;
     std::vector<Start> starts;
-    std::vector<Stamp> stamps;
+    std::vector<CaptureTime> stamps;
     std::optional<Index> firstGlobal;   ///< global index of the first sample
     std::optional<double> datedSeconds; ///< time of a sample, s since 1970 …
     Index datedInTime = 0;              ///< … which has this place
@@ -134,7 +134,7 @@ struct SigmfRecording::Meta {
     void placeByIndex(Index start, Index globalIndex);
     void placeByTime(Index start, const std::string &time, bool isPlaced);
     void settleStart();
-    double lateness(const Stamp &stamp, const Stamp &other) const;
+    double lateness(const CaptureTime &stamp, const CaptureTime &other) const;
     Index inTimeOf(Index start) const;
 };
 
@@ -286,7 +286,7 @@ void SigmfRecording::Meta::placeByTime(Index start, const std::string &time, boo
 }
 
 /// By how much a time is later than another one and the places of both tell; 0 within their resolution.
-double SigmfRecording::Meta::lateness(const Stamp &stamp, const Stamp &other) const
+double SigmfRecording::Meta::lateness(const CaptureTime &stamp, const CaptureTime &other) const
 {
     const double late = stamp.startUnixSeconds - other.startUnixSeconds;
     const double elapsed = double(stamp.inTime - other.inTime) / layout.sampleRateHz;
@@ -299,14 +299,15 @@ void SigmfRecording::Meta::settleStart()
 {
     if (stamps.size() < 2)
         return;
-    std::vector<Stamp> sorted = stamps;
+    std::vector<CaptureTime> sorted = stamps;
     const auto middle = sorted.begin() + std::ssize(sorted) / 2;
-    std::ranges::nth_element(sorted, middle, {}, &Stamp::startUnixSeconds);
-    const auto agrees = [&](const Stamp &stamp) { return lateness(stamp, *middle) == 0.0; };
+    std::ranges::nth_element(sorted, middle, {}, &CaptureTime::startUnixSeconds);
+    const auto agrees = [&](const CaptureTime &stamp) { return lateness(stamp, *middle) == 0.0; };
     const bool isMajority = 2 * std::ranges::count_if(stamps, agrees) > std::ssize(stamps);
-    const Stamp &right = isMajority ? *std::ranges::find_if(stamps, agrees) : stamps.front();
+    const CaptureTime &right = isMajority ? *std::ranges::find_if(stamps, agrees) : stamps.front();
     startUnixSeconds = right.startUnixSeconds;
-    const auto wrong = std::ranges::find_if(stamps, [&](const Stamp &stamp) { return lateness(stamp, right) != 0.0; });
+    const auto wrong =
+        std::ranges::find_if(stamps, [&](const CaptureTime &stamp) { return lateness(stamp, right) != 0.0; });
     if (wrong != stamps.end())
         notes.push_back(timeIs(wrong->number, lateness(*wrong, right)) + "its core:global_index "
                         + (&right == &stamps.front() ? "tells" : "and most other times tell")
