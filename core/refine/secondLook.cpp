@@ -25,7 +25,7 @@ namespace {
     constexpr Index largestGapFrames = 24;       ///< between stretches of one signal
     constexpr int behindLimitPasses = 3;         ///< of the search behind what is explained
     constexpr double hiddenCells = 1.0;          ///< beside a signal
-    constexpr double apartCells = 2.0;           ///< from where on two tracks do not meet: half a main lobe
+    constexpr double apartCells = 3.0;           ///< from where on two tracks do not meet (decideJointly.h)
     constexpr double ghostStatisticShare = 0.08; ///< of a path's statistic, above the floor
     constexpr std::size_t stripBytes = std::size_t(16) << 20; ///< read at a time
 

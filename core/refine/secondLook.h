@@ -43,10 +43,10 @@ struct SecondView {
 ///   2. a track that the detector would not have found over that floor belongs to them and is removed; so is one with
 ///      less than the threshold above the level of its surroundings (levelBeside.h): it was a path through a burst, a
 ///      cloud or a hum, which becomes an area;
-///   3. in cells that are nearer to another track well beside it, with less than half of either's power midway, nothing
-///      is to be seen; the stretches where the signal is present are kept, joined over up to 24 frames: the one in which
-///      the path's statistic gained most, and every other whose own evidence reaches the threshold, which is then its
-///      statistic;
+///   3. in cells that are nearer to another track 3 cells or more beside it, with less than half of either's power midway,
+///      nothing is to be seen; the stretches where the signal is present are kept, joined over up to 24 frames: the one
+///      in which the path's statistic gained most, and every other whose own evidence reaches the threshold, which is
+///      then its statistic;
 ///   4. remaining tracks are explained: they raise the floor for weaker ones;
 ///   5. signals that they hide are searched for behind them (explanation.h), which then take the same steps, until
 ///      nothing more is found;
