@@ -10,7 +10,6 @@ namespace faintline {
 namespace {
 
     constexpr std::size_t mostInstants = 17;
-    constexpr std::size_t drawnInstantLimit = 1000;
     constexpr double toleranceCells = 2.0;
     constexpr double leastShare = 0.5; ///< of the shorter path's time
 
@@ -117,25 +116,26 @@ namespace {
         return verdictNamed(name);
     }
 
-    SignalPath pathFromJson(const Json &json, const std::string &where, std::size_t limit)
+    SignalPath pathFromJson(const Json &json, const std::string &where)
     {
         checkKeys(json, where, {"seconds", "position", "tolerance"});
         SignalPath path{json.at("seconds"), json.at("position"), json.at("tolerance")};
-        if (path.seconds.empty() || path.seconds.size() > limit || path.seconds.size() != path.position.size()
+        if (path.seconds.empty() || path.seconds.size() != path.position.size()
             || !std::is_sorted(path.seconds.begin(), path.seconds.end(), std::less_equal<>()))
-            throw Error(where,
-                        "must have 1 … " + std::to_string(limit) + " ascending seconds and a position for each");
+            throw Error(where, "must have ascending seconds and a position for each");
         for (const std::vector<double> &position : path.position)
             if (position.size() != path.tolerance.size() || position.empty())
                 throw Error(where + ".position", "must have a value and a tolerance for every axis");
         return path;
     }
 
-    std::vector<SignalPath> pathsFromJson(const Json &json, const std::string &where, std::size_t limit)
+    /// `read`: of a detected path, or of one drawn by hand, which may have any number of instants.
+    std::vector<SignalPath> pathsFromJson(const Json &json, const std::string &where,
+                                          SignalPath (*read)(const Json &json, const std::string &where))
     {
         std::vector<SignalPath> paths;
         for (const Json &path : json)
-            paths.push_back(pathFromJson(path, where + "[" + std::to_string(paths.size()) + "]", limit));
+            paths.push_back(read(path, where + "[" + std::to_string(paths.size()) + "]"));
         return paths;
     }
 
@@ -144,8 +144,8 @@ namespace {
         checkKeys(json, where, {"verdict", "note", "label", "paths", "drawn"});
         Review review{
             {}, verdictFromJson(json, where), json.value("note", std::string()), json.value("label", std::string())};
-        review.paths = pathsFromJson(json.at("paths"), where + ".paths", mostInstants);
-        review.drawn = pathsFromJson(json.value("drawn", Json::array()), where + ".drawn", drawnInstantLimit);
+        review.paths = pathsFromJson(json.at("paths"), where + ".paths", signalPathFromJson);
+        review.drawn = pathsFromJson(json.value("drawn", Json::array()), where + ".drawn", pathFromJson);
         return review;
     }
 
@@ -199,7 +199,10 @@ Json toJson(const SignalPath &path)
 
 SignalPath signalPathFromJson(const Json &json, const std::string &where)
 {
-    return pathFromJson(json, where, mostInstants);
+    SignalPath path = pathFromJson(json, where);
+    if (path.seconds.size() > mostInstants)
+        throw Error(where, "must have 17 instants at most");
+    return path;
 }
 
 SignalPath pathOf(const Analysis &analysis, const Event &event)

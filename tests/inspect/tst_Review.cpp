@@ -173,6 +173,15 @@ private slots:
         const Json json = toJson(Annotations{drawn, {}});
         QVERIFY(annotationsFromJson(parseJson(json.dump(2), "x"), "x").reviews == drawn);
         QVERIFY(withDrawn(drawn, analysis, all, 1, {}).empty());
+        // A line of any number of instants is read again; of a detected path, 17 are enough.
+        SignalPath longLine{{}, {}, {2.0}};
+        for (int i = 0; i < 5000; ++i) {
+            longLine.seconds.push_back(i);
+            longLine.position.push_back({100.0});
+        }
+        const Annotations patient{withDrawn({}, analysis, all, 1, {longLine}), {}};
+        QVERIFY(annotationsFromJson(parseJson(toJson(patient).dump(), "x"), "x") == patient);
+        QVERIFY_EXCEPTION_THROWN(signalPathFromJson(toJson(longLine), "path"), Error);
 
         // Joined: in one line where one follows the other, also with what was drawn of them.
         const std::vector<Review> joined = merged({}, analysis, all, {2, 1});
