@@ -23,7 +23,7 @@ struct BridgeWay {
 /// What the cells along a way say: one point for each frame between the pieces.
 struct Bridge {
     std::vector<SmoothedPoint> points;
-    std::vector<bool> isSeen; ///< whether it could be observed in a frame
+    std::vector<bool> isSeen; ///< whether it could be seen in a frame, which was observed
     double gain = 0.0;        ///< evidence in these frames, nat
     double absence = 0.0;     ///< largest evidence against the signal in any stretch of them, nat
 };
@@ -67,7 +67,7 @@ struct RelinkRule {
 /// than m/5 of them were seen and their evidence together is negative; the rest is assigned anew without it.
 /// Where a track of at most four times the pieces' level lies within a cell of the curve, the joined track has what was
 /// measured of that one: equal signals that meet. Elsewhere it has what was measured along the curve; frames farther
-/// than 12 from one in which it was seen have presence 0, and are not reported.
+/// than 12 from one in which it was seen, and those that were not observed, have presence 0, and are not reported.
 ///
 /// There the statistic goes on with what the first track gained up to the middle, then the second one; where one of
 /// these has its end, with what the other gained. Frames of an encounter are evidence for the signals that meet,

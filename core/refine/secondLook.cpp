@@ -50,15 +50,19 @@ namespace {
         double evidence;
     };
 
+    bool isObserved(const PathStrip &strip, Index at)
+    {
+        const auto row = strip.y.begin() + at * strip.width();
+        return std::any_of(row, row + strip.width(), [](float y) { return !std::isnan(y); });
+    }
+
     /// Of frames that were not observed nobody knows whether the signal was there: it is not reported.
     BothWays lookAtObserved(const PathStrip &strip, const BothWaysModel &model)
     {
         BothWays seen = lookBothWays(strip, model);
-        for (Index at = 0; at < strip.frameCount(); ++at) {
-            const auto row = strip.y.begin() + at * strip.width();
-            if (std::all_of(row, row + strip.width(), [](float y) { return std::isnan(y); }))
+        for (Index at = 0; at < strip.frameCount(); ++at)
+            if (!isObserved(strip, at))
                 seen.endsBy[std::size_t(at)] = 0.0f;
-        }
         return seen;
     }
 
@@ -243,17 +247,20 @@ namespace {
             const Index from = std::ssize(way.before);
             const Index to = from + way.gap();
             Bridge bridge;
+            std::vector<bool> wasObserved;
             for (Index at = 0; at < strip.frameCount(); ++at) {
                 if (at < from)
                     setPoint(strip, at, way.before[std::size_t(at)]);
                 else if (at >= to)
                     setPoint(strip, at, way.after[std::size_t(at - to)]);
-                else
-                    bridge.isSeen.push_back(isSeenOrCleared(strip, at));
+                else {
+                    wasObserved.push_back(isObserved(strip, at));
+                    bridge.isSeen.push_back(isSeenOrCleared(strip, at) && wasObserved.back());
+                }
             }
             setLnK(m_model, m_analysis, strip);
             m_model.ends = {};
-            const BothWays seen = lookAtObserved(strip, m_model);
+            const BothWays seen = lookBothWays(strip, m_model);
             double against = 0.0;
             for (Index at = from; at < to; ++at) {
                 const auto i = std::size_t(at);
@@ -262,7 +269,9 @@ namespace {
                 against = std::max(0.0, against - gain);
                 bridge.absence = std::max(bridge.absence, against);
                 bridge.points.push_back({std::clamp(seen.positions[i], 0.0, double(m_cells - 1)), seen.presence.low[i],
-                                         seen.presence.high[i], seen.endsBy[i], float(seen.levels[i])});
+                                         seen.presence.high[i],
+                                         wasObserved[std::size_t(at - from)] ? seen.endsBy[i] : 0.0f,
+                                         float(seen.levels[i])});
             }
             return bridge;
         }
@@ -378,6 +387,7 @@ namespace {
                 accept();
         }
 
+        /// In each frame in order of the cells.
         static std::vector<std::vector<OtherPath>> pathsByFrame(const std::vector<Track> &tracks)
         {
             std::vector<std::vector<OtherPath>> paths;
@@ -386,14 +396,21 @@ namespace {
                 for (const TrackPoint &point : track.points)
                     paths[std::size_t(point.frame)].push_back({point.cell, &track});
             }
+            for (std::vector<OtherPath> &frame : paths)
+                std::ranges::stable_sort(frame, {}, &OtherPath::cell);
             return paths;
         }
 
-        /// The paths of other tracks in a frame of a strip, unless they are far.
-        std::span<const OtherPath> pathsIn(const PathStrip &strip, Index at) const
+        /// The paths up to `reach` cells beside that of a strip in a frame.
+        std::span<const OtherPath> pathsNear(const PathStrip &strip, Index at, Index reach) const
         {
             const auto frame = std::size_t(strip.firstFrame + at);
-            return frame < m_paths.size() ? std::span<const OtherPath>(m_paths[frame]) : std::span<const OtherPath>();
+            if (frame >= m_paths.size())
+                return {};
+            const Index centre = strip.centres[std::size_t(at)];
+            const auto first = std::ranges::lower_bound(m_paths[frame], centre - reach, {}, &OtherPath::cell);
+            const auto end = std::ranges::upper_bound(m_paths[frame], centre + reach, {}, &OtherPath::cell);
+            return {first, end};
         }
 
         /// A strip in which nothing is to be seen in cells that are nearer to another signal: a track that stays well beside
@@ -417,22 +434,23 @@ namespace {
                     const float y = strip.valueAt(at, cell);
                     return std::isnan(y) ? 0.0 : double(y) - 1.0;
                 };
-                for (const auto &[cell, other] : pathsIn(strip, at))
-                    if (const Index apart = std::abs(cell - centre); other != &track && apart <= strip.halfWidth) {
-                        Meeting &meeting = others[other];
-                        meeting.isNear = meeting.isNear || apart < beside;
-                        if (frame < track.onsetFrame || frame > track.endFrame)
-                            continue;
-                        meeting.own += power(centre);
-                        meeting.other += power(cell);
-                        meeting.midway += power((centre + cell) / 2);
-                    }
+                for (const auto &[cell, other] : pathsNear(strip, at, strip.halfWidth)) {
+                    if (other == &track)
+                        continue;
+                    Meeting &meeting = others[other];
+                    meeting.isNear = meeting.isNear || std::abs(cell - centre) < beside;
+                    if (frame < track.onsetFrame || frame > track.endFrame)
+                        continue;
+                    meeting.own += power(centre);
+                    meeting.other += power(cell);
+                    meeting.midway += power((centre + cell) / 2);
+                }
             }
             std::erase_if(others, [](const auto &each) { return !each.second.isApart(); });
             PathStrip own = strip;
             for (Index at = 0; at < own.frameCount() && !others.empty(); ++at) {
                 const Index centre = own.centres[std::size_t(at)];
-                for (const auto &[cell, other] : pathsIn(own, at)) {
+                for (const auto &[cell, other] : pathsNear(own, at, 2 * own.halfWidth + beside)) {
                     if (!others.contains(other))
                         continue;
                     const Index middle = centre + (cell - centre) / 2;
