@@ -101,7 +101,8 @@ public:
     static Steps stepsOf(const SpectrogramSettings &settings, const RecordingInfo &info);
 
     /// Default T_FT for a recording: 3·√(duration/rate), rounded to 1, 2 or 5 · 10ⁿ seconds, which
-    /// gives about as many cells as frames.
+    /// gives about as many cells as frames; at most a quarter of the recording, and of its stretches without a gap
+    /// (Stretches::typicalCount).
     static double automaticWindowSeconds(const RecordingInfo &info);
 
 private:

@@ -150,6 +150,20 @@ std::vector<float> scene(double seconds = 600.0)
     return readAll(recording);
 }
 
+/// A minute of noise with a line at 210 Hz.
+std::vector<float> minuteWithALine(double snrDb, double startSeconds, double durationSeconds, int seed)
+{
+    LineScene scene{.sampleRateHz = heardRate, .durationSeconds = 60.0};
+    scene.noise.deviation = 0.1;
+    scene.seed = seed;
+    scene.lines = {{.snrDb = snrDb,
+                    .referenceSeconds = 0.25,
+                    .startSeconds = startSeconds,
+                    .durationSeconds = durationSeconds,
+                    .frequencyHz = 210.0}};
+    return readAll(SimulatedRecording(scene));
+}
+
 ListenSettings settings(const std::string &record)
 {
     ListenSettings result;
@@ -262,15 +276,7 @@ private slots:
     // A line at 6 dB, for which a stream suffices that ends two windows after the crossing.
     void isToldSoonAfterTheCrossing()
     {
-        LineScene lines{.sampleRateHz = heardRate, .durationSeconds = 60.0};
-        lines.noise.deviation = 0.1;
-        lines.seed = 5;
-        lines.lines = {{.snrDb = 6.0,
-                        .referenceSeconds = 0.25,
-                        .startSeconds = 30.0,
-                        .durationSeconds = 25.0,
-                        .frequencyHz = 210.0}};
-        const std::vector<float> samples = readAll(SimulatedRecording(lines));
+        const std::vector<float> samples = minuteWithALine(6.0, 30.0, 25.0, 5);
         const auto told = [&](double seconds) {
             const auto count = std::size_t(seconds * heardRate);
             GivenSource source(format(), piecesOf({samples.begin(), samples.begin() + std::ptrdiff_t(count)}, {}, 8));
@@ -293,15 +299,7 @@ private slots:
     // A tracker goes on through noise for a while before it gives up; what is told of it does not.
     void nothingIsToldBeyondTheLastEvidence()
     {
-        LineScene lines{.sampleRateHz = heardRate, .durationSeconds = 60.0};
-        lines.noise.deviation = 0.1;
-        lines.seed = 6;
-        lines.lines = {{.snrDb = 12.0,
-                        .referenceSeconds = 0.25,
-                        .startSeconds = 10.0,
-                        .durationSeconds = 20.0,
-                        .frequencyHz = 210.0}};
-        GivenSource source(format(), piecesOf(readAll(SimulatedRecording(lines)), {}, 8));
+        GivenSource source(format(), piecesOf(minuteWithALine(12.0, 10.0, 20.0, 6), {}, 8));
         ListenSettings used = settings({});
         used.updateSeconds = 1.0;
         int updates = 0;
