@@ -660,8 +660,8 @@ void tst_Lessons::presentedNoTextIsCut()
                 panel->setStep(lesson, step);
                 window.resize(size);
                 panel->setGeometry(QRect(QPoint(), size));
-                QTRY_VERIFY2(cut(*panel).isEmpty(), qPrintable(lesson.title + ": " + cut(*panel)));
-                QTest::qWait(30); // and remains so
+                for (int pass = 0; pass < 20; ++pass) // each may ask for another layout; there is an end
+                    QCoreApplication::processEvents();
                 QVERIFY2(cut(*panel).isEmpty(), qPrintable(lesson.title + ": " + cut(*panel)));
             }
 }
