@@ -269,8 +269,7 @@ namespace {
             {},
             {{"Billon 2005, Figure 1", "time (T_FT)", "SMD statistic (nats)", false, false, {along, elsewhere}}},
             {"The paper's figure is a picture without numbers: nothing to judge. Pd at these settings is in Table 3.",
-             "The picture itself: faintline render with the scenario of a faint wandering line, views input and "
-             "output."}};
+             "The picture itself, to play with: Examples, Figure 1 of Billon 2005."}};
         const auto add = [&](const char *column, double ours) {
             ReproducedCell cell;
             cell.row = "SMD 5 slopes";

@@ -293,13 +293,13 @@ AnalysisController::Opening AnalysisController::openNow(const QString &path, con
         const QString warning = doubtAbout(opened);
         return {std::move(opened), settings, {}, {}, warning};
     }
-    const Session session = readSession(name);
+    const Session session = sessionAt(path);
     OpenedSource opened = openSource(session.source, normalisationBy(session.settings), context);
     kindOf(opened); // throws for frames that cannot be shown
     return {std::move(opened),
             session.settings,
             viewFromJson(session.view, name),
-            path,
+            session.source.path == name ? QString() : path,
             QString::fromStdString(recordingMismatch(session)),
             session.annotations,
             session.numbers};

@@ -35,6 +35,10 @@ const std::vector<Scenario> &scenarios()
         {words("Lines on coloured noise"),
          words("Normalisation flattens noise that rises by 6 dB per octave, so one threshold serves all frequencies."),
          QStringLiteral(":/scenarios/lines-on-coloured-noise.json")},
+        {words("Figure 1 of Billon 2005"),
+         words("One line at -1 dB that wanders by three cells, and the statistic along it, at one false alarm a "
+               "picture."),
+         QStringLiteral(":/scenarios/billon-figure-1.faintline")},
     };
     return list;
 }

@@ -2,6 +2,7 @@
 
 #include "app/base/filePath.h"
 #include "base/json.h"
+#include "exchange/Session.h"
 #include "plan/firstSettings.h"
 
 namespace faintline {
@@ -10,14 +11,32 @@ namespace {
 
     constexpr qint64 largestFile = 1 << 20;
 
+    bool isInResources(const QString &path)
+    {
+        return path.startsWith(QLatin1String(":/"));
+    }
+
+    Json readResource(const QString &path)
+    {
+        return parseJson(readBeginning(path, largestFile).toStdString(), pathBytes(path));
+    }
+
 } // namespace
 
 Source sourceAt(const QString &path, const OpenOptions &options)
 {
     const std::string name = pathBytes(path);
-    if (!path.startsWith(QLatin1String(":/")))
-        return sourceOf(name, options);
-    return sourceOfScene(parseJson(readBeginning(path, largestFile).toStdString(), name), name);
+    return isInResources(path) ? sourceOfScene(readResource(path), name) : sourceOf(name, options);
+}
+
+Session sessionAt(const QString &path)
+{
+    const std::string name = pathBytes(path);
+    if (!isInResources(path))
+        return readSession(name);
+    Session session = sessionOf(readResource(path), name);
+    session.source.path = name;
+    return session;
 }
 
 QString nameOf(const Source &source)

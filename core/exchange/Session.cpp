@@ -162,9 +162,8 @@ bool isSessionPath(const std::string &path)
     return hasEnding(path, ".faintline");
 }
 
-Session readSession(const std::string &path)
+Session sessionOf(const Json &json, const std::string &path)
 {
-    const Json json = readJsonFile(path);
     try {
         return sessionFromJson(json, path);
     } catch (const Error &error) {
@@ -172,6 +171,11 @@ Session readSession(const std::string &path)
     } catch (const Json::exception &error) {
         throw Error(path, "is not a Faintline session: " + complaint(error));
     }
+}
+
+Session readSession(const std::string &path)
+{
+    return sessionOf(readJsonFile(path), path);
 }
 
 Source sourceFromJson(const Json &recording, const std::string &folder)

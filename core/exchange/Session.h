@@ -27,6 +27,9 @@ bool isSessionPath(const std::string &path);
 /// Throws Error naming the file and the key.
 Session readSession(const std::string &path);
 
+/// The session of a file's JSON. Throws like readSession.
+Session sessionOf(const Json &json, const std::string &path);
+
 /// The source in a session's or a provenance's "recording", with its path relative to `folder`. Throws Error naming the
 /// key, Json::exception.
 Source sourceFromJson(const Json &recording, const std::string &folder);

@@ -177,6 +177,18 @@ private slots:
         QVERIFY(std::abs(events.front().endSeconds - line.endSeconds) < 2.0);
     }
 
+    void anExampleWithSettingsHasNoFileToSaveTo()
+    {
+        const auto window = newWindow();
+        QVERIFY(openAndSettle(*window, scenarios().back().path));
+        AnalysisSettings expected = preset("billon").settings;
+        expected.spectrogram.windowSeconds = 0.5;
+        expected.decide.falseAlarmsPerHour = 48; // one per block of 75 s
+        QCOMPARE(window->document().settings(), expected);
+        QCOMPARE(window->document().sessionPath(), QString());
+        QVERIFY(!window->document().truth().lines.empty());
+    }
+
     void picturesAreThoseOfTheProgram_data()
     {
         QTest::addColumn<QString>("path");
