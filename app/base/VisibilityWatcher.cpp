@@ -5,6 +5,14 @@
 
 namespace faintline {
 
+bool isInSight(const QWidget &widget)
+{
+    QRect seen = widget.rect();
+    for (const QWidget *one = &widget; !one->isWindow() && one->parentWidget(); one = one->parentWidget())
+        seen = seen.translated(one->pos()) & one->parentWidget()->rect();
+    return widget.isVisible() && !seen.isEmpty();
+}
+
 VisibilityWatcher::VisibilityWatcher(QWidget &panel) : QObject(&panel), m_panel(panel)
 {
     watch();
@@ -12,7 +20,7 @@ VisibilityWatcher::VisibilityWatcher(QWidget &panel) : QObject(&panel), m_panel(
 
 bool VisibilityWatcher::isOn() const
 {
-    return m_panel.isVisible() && !m_panel.visibleRegion().isEmpty();
+    return isInSight(m_panel);
 }
 
 void VisibilityWatcher::watch()

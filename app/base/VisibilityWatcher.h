@@ -6,6 +6,10 @@ class QWidget;
 
 namespace faintline {
 
+/// Whether any part of a widget is in sight: visible, and within all its ancestors. QWidget::visibleRegion() is empty where children cover a
+/// widget.
+bool isInSight(const QWidget &widget);
+
 /// Whether a panel is visible, with a signal when it becomes visible.
 ///
 /// Qt regards a panel behind another tab as visible and keeps it outside the window; its contents should not be

@@ -1,5 +1,6 @@
 #include "app/lessons/PointerFrame.h"
 
+#include "app/base/VisibilityWatcher.h"
 #include "widgets/base/Theme.h"
 
 #include <QAbstractScrollArea>
@@ -35,8 +36,7 @@ void PointerFrame::pointAt(QWidget *target)
 
 void PointerFrame::follow()
 {
-    const bool isThere =
-        m_target && m_target->window() == window() && m_target->isVisible() && !m_target->visibleRegion().isEmpty();
+    const bool isThere = m_target && m_target->window() == window() && isInSight(*m_target);
     setVisible(isThere);
     if (!isThere)
         return;

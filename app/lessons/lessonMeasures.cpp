@@ -1,5 +1,6 @@
 #include "app/lessons/lessonMeasures.h"
 
+#include "app/base/VisibilityWatcher.h"
 #include "app/lessons/truthMeasures.h"
 #include "app/panels/EvaluatePanel.h"
 #include "app/panels/WhyPanel.h"
@@ -296,7 +297,7 @@ Value lessonMeasure(WindowParts &window, const std::string &name)
         return pdMeasure(window, name);
     if (begins(name, "view.")) {
         const QWidget *view = window.views().named(QString::fromStdString(name.substr(5)));
-        return view && view->isVisible() && !view->visibleRegion().isEmpty() ? 1.0 : 0.0;
+        return view && isInSight(*view) ? 1.0 : 0.0;
     }
     if (const auto *field = testField(name))
         return field->get(window.sequentialTests().test());

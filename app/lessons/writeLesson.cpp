@@ -1,5 +1,6 @@
 #include "app/lessons/writeLesson.h"
 
+#include "app/base/VisibilityWatcher.h"
 #include "app/base/filePath.h"
 #include "app/lessons/Lesson.h"
 #include "app/lessons/lessonMeasures.h"
@@ -87,7 +88,7 @@ namespace {
             const QWidget *dock = widget;
             while (dock && !qobject_cast<const QDockWidget *>(dock))
                 dock = dock->parentWidget();
-            if (dock && widget->isVisible() && !widget->visibleRegion().isEmpty())
+            if (dock && isInSight(*widget))
                 names.push_back(view.name.toStdString());
         }
         return names;

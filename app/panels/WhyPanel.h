@@ -28,8 +28,11 @@ class WhyPanel : public QWidget
 public:
     WhyPanel(Document &document, const PingViewports &viewports, QWidget *parent = nullptr);
 
-    /// Null: none.
-    const Explanation *explanation() const { return m_why.answer() ? &m_why.answer()->explanation : nullptr; }
+    /// Null: none, or not yet of this cursor.
+    const Explanation *explanation() const
+    {
+        return m_why.answer() && !m_why.isRunning() ? &m_why.answer()->explanation : nullptr;
+    }
     /// Carries the remedy of a cell that was not detected.
     QPushButton *remedy() const { return m_remedy; }
     QTableWidget *ladder() const { return m_ladder; }

@@ -1,5 +1,6 @@
 #include "app/render/openAndSettle.h"
 
+#include "app/base/VisibilityWatcher.h"
 #include "app/base/filePath.h"
 #include "app/control/Comparer.h"
 #include "app/document/scanScenario.h"
@@ -120,7 +121,7 @@ void goThroughLesson(MainWindow &window, const RenderOptions &options)
     if (failure)
         throw *failure;
     for (const QString &view : {QStringLiteral("why"), QStringLiteral("noisefit")})
-        if (!window.views().named(view)->visibleRegion().isEmpty())
+        if (isInSight(*window.views().named(view)))
             showAndSettle(window, view);
 }
 

@@ -3,6 +3,7 @@
 
 #include <QDockWidget>
 #include <QMainWindow>
+#include <QScrollArea>
 
 using namespace faintline;
 
@@ -47,6 +48,23 @@ private slots:
         docks[0]->hide();
         QTRY_COMPARE(second.size(), 2); // what was behind it
         QVERIFY(!sights[0]->isOn());
+    }
+
+    void whatChildrenCoverIsInSight()
+    {
+        QWidget window;
+        auto *panel = new QWidget(&window);
+        auto *area = new QScrollArea(panel);
+        area->setAutoFillBackground(true);
+        window.resize(300, 200);
+        panel->setGeometry(window.rect());
+        area->setGeometry(panel->rect());
+        QVERIFY(!isInSight(*panel)); // not shown yet
+        window.show();
+        QVERIFY(isInSight(*panel));
+        panel->move(300, 0);
+        QVERIFY(!isInSight(*panel));
+        QVERIFY(!isInSight(*area));
     }
 };
 
