@@ -32,7 +32,7 @@ void PingBench::layOut()
     addHistory(*m_alongHistory, *m_alongHistory, 0);
     addHistory(*m_acrossHistory, *m_acrossHistory, 1);
     timeStack().add(m_regulation->plot(), *m_regulation);
-    addRows({{mapsAndBar, 450}, {historyPanes(), 250}, {m_regulation, 120}});
+    addRows({{mapsAndBar, 400}, {historyPanes(), 330}, {m_regulation, 90}}); // histories are two
 }
 
 /// What runs along time.
