@@ -72,8 +72,7 @@ EvaluatePanel::EvaluatePanel(const Document &document, Experiments &experiments,
     m_tabs->addTab(rocPage, tr("ROC"));
     m_tabs->setDocumentMode(true);
     m_pd->setInvitation(tr("click it to see one of its trials"));
-    for (ChartPlot *plot : {m_pd, m_roc})
-        plot->setEmptySentence(tr("Choose lines and detectors, then press Start to plot the curves."));
+    sayWhyEmpty(false);
 
     auto *layout = new QHBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
@@ -167,6 +166,7 @@ void EvaluatePanel::show(int id)
     }
     m_pd->setChart({});
     m_roc->setChart({});
+    sayWhyEmpty(false);
     m_column->clearState();
 }
 
@@ -177,8 +177,16 @@ void EvaluatePanel::follow(int id)
         return;
     m_column->showState(*entry);
     m_column->compare(*entry, ofForm());
+    sayWhyEmpty(entry->isOpen());
     showPd(*entry);
     showRoc(*entry);
+}
+
+void EvaluatePanel::sayWhyEmpty(bool isComputing)
+{
+    for (ChartPlot *plot : {m_pd, m_roc})
+        plot->setEmptySentence(isComputing ? tr("The curves are being computed.")
+                                           : tr("Choose lines and detectors, then press Start to plot the curves."));
 }
 
 void EvaluatePanel::fillSnrs(const Experiments::Entry &entry)

@@ -52,6 +52,7 @@ private:
     void showRoc(const Experiments::Entry &entry);
     void showOperatingPoint(const Experiments::Entry &entry);
     std::size_t shownSnr() const;
+    void sayWhyEmpty(bool isComputing);
     void fillSnrs(const Experiments::Entry &entry);
 
     const Document &m_document;
