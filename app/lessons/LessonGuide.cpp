@@ -295,6 +295,7 @@ void LessonGuide::arrange()
                         step.zoomHz.value_or(viewport.full().frequency));
     if (step.cursorSeconds || step.cursorRange || step.cursorBearing)
         m_parts.bench().setPlace({step.cursorSeconds, step.cursorHz, step.cursorRange, step.cursorBearing});
+    m_parts.workbench().setRegulationFirst(step.point == QLatin1String("regulation"));
     QWidget *target = widgetNamed(step.point);
     pointOut(target);
     m_frame->pointAt(target);
@@ -316,8 +317,8 @@ void LessonGuide::keepInSight()
     constexpr int laidOutMs = 250;
     QTimer::singleShot(laidOutMs, this, [this] {
         if (isRunning() && m_isReady && !m_isAtEnd) {
+            widenChart(widgetNamed(now().point));
             shareColumn(); // now that the width of its text is known
-            widgetNamed(now().point);
             m_frame->follow();
         }
     });
@@ -390,15 +391,16 @@ void LessonGuide::present(bool isPresenting)
 {
     m_panel->setLarge(isPresenting);
     m_isPresenting = isPresenting;
-    if (isRunning() && isPresenting && m_isReady && !m_isAtEnd) {
+    if (!isPresenting)
+        setFormsVisible(true);
+    if (isRunning() && m_isReady
+        && !m_isAtEnd) { // without the presentation, too: the layout before it had other panels
         for (const QString &name : now().show)
             reveal(widgetNamed(name));
         pointOut(widgetNamed(now().point));
         m_frame->follow();
         keepInSight();
     }
-    if (!isPresenting)
-        setFormsVisible(true);
 }
 
 /// In a presentation: half of the height for a sheet below the pictures; of the column, two thirds for the lesson, half
@@ -424,6 +426,16 @@ void LessonGuide::shareColumn()
     m_window.resizeDocks({m_dock, *below}, {lesson, height - lesson}, Qt::Vertical);
 }
 
+/// In a presentation, a chart in a column beside the lesson's gets the same width.
+void LessonGuide::widenChart(QWidget *target)
+{
+    for (auto *dock : m_window.findChildren<QDockWidget *>(Qt::FindDirectChildrenOnly))
+        if (m_isPresenting && target && dock->isAncestorOf(target) && target->findChild<QwtPlot *>()
+            && m_window.dockWidgetArea(dock) == Qt::RightDockWidgetArea
+            && m_window.dockWidgetArea(m_dock) == Qt::LeftDockWidgetArea)
+            m_window.resizeDocks({dock}, {m_window.width() * panelPercent / 100}, Qt::Horizontal);
+}
+
 /// Reveals what a step points to, in front of the step's other panels.
 void LessonGuide::pointOut(QWidget *target)
 {
@@ -431,6 +443,7 @@ void LessonGuide::pointOut(QWidget *target)
     reveal(target);
     takeOneColumn();
     reveal(target);
+    widenChart(target);
     shareColumn();
 }
 
@@ -486,6 +499,7 @@ void LessonGuide::leave()
     m_frame->pointAt(nullptr);
     m_dock->hide();
     setFormsVisible(true);
+    m_parts.workbench().setRegulationFirst(false);
     emit runningChanged(false);
 }
 

@@ -83,6 +83,7 @@ private:
     void pointOut(QWidget *target);
     void takeOneColumn();
     void shareColumn();
+    void widenChart(QWidget *target);
     void putAway(const QWidget *target);
     void setFormsVisible(bool isVisible);
     void reveal(QWidget *widget);

@@ -28,7 +28,7 @@ namespace {
 
     constexpr int plainSize = 14;
     constexpr int largeSize = 26;      ///< readable from the last row
-    constexpr int smallLargeSize = 17; ///< of a long step on a small screen, whose answers are to be seen at once
+    constexpr int smallLargeSize = 15; ///< of a long step on a small screen, whose answers are to be seen at once
 
     /// A choice with wrapped text, all of which can be clicked; QRadioButton does not wrap.
     class ChoiceRow : public QWidget
@@ -148,6 +148,7 @@ void LessonPanel::setLarge(bool isLarge)
         showAnswer(chosen);
     }
     showState();
+    keepLatestInSight();
 }
 
 void LessonPanel::fillHead()
@@ -210,18 +211,31 @@ int LessonPanel::presentedHeight()
     return height() - m_area->height() + smallest;
 }
 
-/// In a presentation, the largest text with which the whole step is seen, until more is said of it.
+/// In a presentation, the largest text with which the whole step is seen.
 void LessonPanel::fitText()
 {
-    if (!m_isLarge || !m_area->widget() || !m_area->isVisible() || choice() >= 0 || m_isDone)
-        return;
+    if (!m_isLarge || !m_area->widget() || !m_area->isVisible())
+        return m_area->setVerticalScrollBarPolicy(Qt::ScrollBarAsNeeded);
     const QSize room = m_area->maximumViewportSize();
     const int height = m_title->height() + room.height(); // which share the panel
-    for (int size = largeSize; size >= smallLargeSize; --size) {
+    bool fits = false;
+    for (int size = largeSize; size >= smallLargeSize && !fits; --size) {
         m_title->setFont(Theme::boldFont(size));
-        if (pageHeight(size, room.width()) + m_title->heightForWidth(m_title->width()) <= height)
-            break;
+        fits = pageHeight(size, room.width()) + m_title->heightForWidth(m_title->width()) <= height;
     }
+    // A bar that is there already makes the text too narrow to fit without one.
+    m_area->setVerticalScrollBarPolicy(fits ? Qt::ScrollBarAlwaysOff : Qt::ScrollBarAsNeeded);
+}
+
+/// What was said last, and the task before it, once they have their place.
+void LessonPanel::keepLatestInSight()
+{
+    QTimer::singleShot(0, m_area->widget(), [this] {
+        fitText();
+        for (QWidget *part : {m_task, m_why, m_then})
+            if (part && !part->isHidden() && (part != m_then || m_isDone))
+                m_area->ensureWidgetVisible(part);
+    });
 }
 
 void LessonPanel::fill()
@@ -354,15 +368,15 @@ void LessonPanel::showAnswer(int chosen)
                    + question.why);
     m_why->show();
     showState();
-    QTimer::singleShot(0, m_why, [this] { m_area->ensureWidgetVisible(m_why); });
+    keepLatestInSight();
 }
 
 void LessonPanel::setDone(bool isDone)
 {
     m_isDone = isDone;
     showState();
-    if (isDone && m_then && !m_then->text().isEmpty())
-        QTimer::singleShot(0, m_then, [this] { m_area->ensureWidgetVisible(m_then); });
+    if (isDone)
+        keepLatestInSight();
 }
 
 void LessonPanel::setWaiting(bool isWaiting)

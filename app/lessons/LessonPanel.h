@@ -75,6 +75,7 @@ private:
     void showPage(QVBoxLayout &column);
     int pageHeight(int textSize, int width);
     void fitText();
+    void keepLatestInSight();
     void fillHead();
     void showAnswer(int choice);
     void showState();

@@ -346,8 +346,16 @@ void Workbench::showWhatFits()
     const bool isStacked = timeStack().isOn();
     const int enoughForOne = isStacked ? 520 : 460; // the pictures keep 350, or 200 each above each other
     const int enoughForBoth = isStacked ? 610 : 570;
-    m_statistic->setVisible(height() >= enoughForOne);
-    m_regulation->setVisible(m_isRegulationWanted && height() >= enoughForBoth && !m_document.isLive());
+    const bool isRegulationFirst = m_isRegulationFirst && m_isRegulationWanted && !m_document.isLive();
+    m_statistic->setVisible(height() >= (isRegulationFirst ? enoughForBoth : enoughForOne));
+    m_regulation->setVisible(m_isRegulationWanted && height() >= (isRegulationFirst ? enoughForOne : enoughForBoth)
+                             && !m_document.isLive());
+}
+
+void Workbench::setRegulationFirst(bool isFirst)
+{
+    m_isRegulationFirst = isFirst;
+    showWhatFits();
 }
 
 void Workbench::setRegulationWanted(bool isWanted)

@@ -49,6 +49,8 @@ public:
     bool isRadioAxis() const { return m_isRadioAxis; }
     /// Whether the share of continued states and ln K are shown over time, where there is room.
     void setRegulationWanted(bool isWanted);
+    /// Where only one chart fits below the pictures, it is ln K instead of the statistic.
+    void setRegulationFirst(bool isFirst);
 
 public slots:
     void stepFrames(int frames) override;
@@ -103,6 +105,7 @@ private:
     bool m_isToBePainted = false;
     bool m_isRadioAxis = false;
     bool m_isRegulationWanted = true;
+    bool m_isRegulationFirst = false;
 };
 
 } // namespace faintline

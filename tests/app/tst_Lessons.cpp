@@ -1,6 +1,7 @@
 // Every lesson is gone through as a learner would: what a step says is checked where it says it, the task is open
 // before the learner's act, which is done by mouse and keys, and done after it.
 
+#include "app/base/VisibilityWatcher.h"
 #include "app/lessons/LessonGuide.h"
 #include "app/lessons/LessonList.h"
 #include "app/lessons/LessonPanel.h"
@@ -14,6 +15,7 @@
 #include "app/welcome/WelcomePage.h"
 #include "app/window/CommandPalette.h"
 #include "app/workspace/PingBench.h"
+#include "app/workspace/RegulationPlot.h"
 #include "app/workspace/Workbench.h"
 #include "support/errors.h"
 #include "support/test.h"
@@ -21,6 +23,7 @@
 #include "widgets/forms/SettingsForm.h"
 #include "widgets/pings/PingMap.h"
 #include "widgets/plot/ExceedancePlot.h"
+#include "widgets/plot/StripPlot.h"
 #include "widgets/plot/WalkPlot.h"
 #include "widgets/waterfall/WaterfallView.h"
 
@@ -196,7 +199,9 @@ private slots:
     void aLessonOfScansPutsTheRecordingAside();
     void presentedItIsLargerAndStays();
     void presentedNoTextIsCut();
+    void presentedAnAnswerLeavesTheTaskInSight();
     void presentedTheStepKeepsItsPanel();
+    void whereOneChartFitsItIsTheOneToLookAt();
     void presentedPanelsOfOtherStepsAreAway();
     void presentedOnASmallScreenItSharesAColumn();
     void presentedTheFormIsLarger();
@@ -274,7 +279,7 @@ void tst_Lessons::everyLessonIsTrueAndCanBeDone()
 
         QWidget *target = guide.widgetNamed(step.point);
         QCoreApplication::processEvents();
-        QVERIFY2(target && target->isVisible() && !target->visibleRegion().isEmpty(), where + "nothing to point at");
+        QVERIFY2(target && isInSight(*target), where + "nothing to point at");
         QVERIFY2(guide.frame().isVisible() && guide.frame().testAttribute(Qt::WA_TransparentForMouseEvents), where);
         for (QWidget *around = target->parentWidget(); around != window.get(); around = around->parentWidget())
             if (const auto *area = qobject_cast<QAbstractScrollArea *>(around)) {
@@ -490,7 +495,7 @@ void tst_Lessons::whatIsShownBecomesALesson()
     auto *dock = window->findChild<QDockWidget *>("whyDock");
     dock->show();
     dock->raise();
-    QTRY_VERIFY(window->why().isVisible() && !window->why().visibleRegion().isEmpty());
+    QTRY_VERIFY(isInSight(window->why()));
     writeNewLesson(*window, path);
     const AnalysisSettings first = document.settings();
     const auto firstBox = document.viewport().visible();
@@ -666,6 +671,37 @@ void tst_Lessons::presentedNoTextIsCut()
             }
 }
 
+void tst_Lessons::presentedAnAnswerLeavesTheTaskInSight()
+{
+    QWidget window;
+    auto *panel = new LessonPanel(&window);
+    panel->setLarge(true);
+    window.resize(384, 900);
+    window.show();
+    panel->setGeometry(window.rect());
+    const auto layOut = [] {
+        for (int pass = 0; pass < 20; ++pass)
+            QCoreApplication::processEvents();
+    };
+    int asked = 0;
+    for (const Lesson &lesson : lessons())
+        for (int step = 0; step < int(lesson.steps.size()); ++step) {
+            const LessonStep &now = lesson.steps[std::size_t(step)];
+            if (!now.question || now.task.isEmpty())
+                continue;
+            panel->setStep(lesson, step);
+            layOut();
+            panel->choices()->button(now.question->answer)->click();
+            layOut();
+            for (const QLabel *label : panel->findChildren<QLabel *>())
+                if (label->text().endsWith(now.task)) {
+                    ++asked;
+                    QVERIFY2(label->visibleRegion().boundingRect() == label->rect(), qPrintable(label->text()));
+                }
+        }
+    QVERIFY(asked > 5);
+}
+
 /// What a step is about is there, though a presentation puts away all panels.
 void tst_Lessons::presentedTheStepKeepsItsPanel()
 {
@@ -677,8 +713,21 @@ void tst_Lessons::presentedTheStepKeepsItsPanel()
     auto *form = window->findChild<SettingsForm *>();
     QVERIFY(form->isVisible() && form->editor("smd.lnK")->isVisible());
     QVERIFY(!window->findChild<QDockWidget *>("thresholdDock")->isVisible());
-    guide.leave();
     QTest::keyClick(window.get(), Qt::Key_F5);
+    QTRY_VERIFY(isInSight(*form->editor("smd.lnK"))); // nor does its end take it away
+    guide.leave();
+}
+
+void tst_Lessons::whereOneChartFitsItIsTheOneToLookAt()
+{
+    const auto window = newWindow({1280, 700});
+    LessonGuide &guide = window->lessonGuide();
+    guide.start(readLesson(":/lessons/reset.json"), 0);
+    QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+    QTRY_VERIFY(window->workbench().regulationPlot()->isVisible());
+    QVERIFY(!window->workbench().statisticPlot()->isVisible());
+    guide.leave();
+    QTRY_VERIFY(window->workbench().statisticPlot()->isVisible());
 }
 
 void tst_Lessons::presentedPanelsOfOtherStepsAreAway()
