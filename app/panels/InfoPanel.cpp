@@ -18,7 +18,6 @@
 
 #include <QCoreApplication>
 #include <QLabel>
-#include <QScrollArea>
 #include <QVBoxLayout>
 
 #include <cmath>
@@ -137,19 +136,13 @@ InfoPanel::InfoPanel(const Document &document, AnalysisController &controller, R
     m_label->setAlignment(Qt::AlignTop | Qt::AlignLeft);
     m_label->setMargin(10);
     m_label->setWordWrap(true);
-    auto *area = new QScrollArea;
     auto *content = new QWidget;
     auto *column = new QVBoxLayout(content);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
     column->addWidget(m_check);
     column->addWidget(m_label, 1);
-    area->setWidget(content);
-    area->setWidgetResizable(true);
-    area->setFrameShape(QFrame::NoFrame);
-    auto *layout = new QVBoxLayout(this);
-    layout->setContentsMargins(0, 0, 0, 0);
-    layout->addWidget(area);
+    setScrolledColumn(*this, content);
 
     connect(&document, &Document::opened, this, &InfoPanel::refresh);
     connect(&document, &Document::analysisChanged, this, &InfoPanel::refresh);

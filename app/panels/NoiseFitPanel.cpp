@@ -66,6 +66,8 @@ namespace {
         return chart;
     }
 
+    constexpr int leastChart = 190; ///< pixels
+    constexpr int leastTable = 90;
     constexpr double notable = 3.0; ///< multiple of a Pfa
 
     /// Noise a little too strong adds up faster than resets take away; a ratio would only tell how small the Pfa was.
@@ -109,11 +111,15 @@ NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
     splitter->addWidget(m_table);
     splitter->setSizes({260, 170});
     splitter->setChildrenCollapsible(false);
-    auto *layout = new QVBoxLayout(this);
+    m_plot->setMinimumHeight(leastChart);
+    m_table->setMinimumHeight(leastTable);
+    auto *content = new QWidget;
+    auto *layout = new QVBoxLayout(content);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
     layout->addWidget(m_sentence);
     layout->addWidget(splitter, 1);
+    setScrolledColumn(*this, content);
 
     m_fit.watch(*this, m_sentence);
     m_fit.askAt(document, &Document::opened, &Document::analysisChanged);

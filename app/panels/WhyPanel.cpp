@@ -15,7 +15,6 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QSplitter>
 #include <QTableWidget>
 #include <QVBoxLayout>
@@ -224,14 +223,7 @@ WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *
     layout->addLayout(remedy);
     layout->addWidget(m_sentence);
     layout->addWidget(splitter, 1);
-    auto *area = new QScrollArea; // in a low panel, the whole sentence comes first
-    area->setWidget(content);
-    area->setWidgetResizable(true);
-    area->setFrameShape(QFrame::NoFrame);
-    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    auto *whole = new QVBoxLayout(this);
-    whole->setContentsMargins(0, 0, 0, 0);
-    whole->addWidget(area);
+    setScrolledColumn(*this, content); // in a low panel, the whole sentence comes first
 
     m_why.setPause(pauseMs);
     m_why.watch(*this, m_sentence);

@@ -10,7 +10,6 @@
 #include <QFileInfo>
 #include <QLabel>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QVBoxLayout>
 
 namespace faintline {
@@ -74,13 +73,7 @@ WelcomePage::WelcomePage(QWidget *lessons, QWidget *parent) : QWidget(parent), m
     centring->addStretch(1);
     centring->addWidget(page, 1000);
     centring->addStretch(1);
-    auto *area = new QScrollArea;
-    area->setFrameShape(QFrame::NoFrame);
-    area->setWidgetResizable(true);
-    area->setWidget(centred);
-    auto *layout = new QVBoxLayout(this);
-    layout->setContentsMargins(0, 0, 0, 0);
-    layout->addWidget(area);
+    setScrolledColumn(*this, centred);
 }
 
 QLayout *WelcomePage::buildCards(const std::vector<Scenario> &shown)

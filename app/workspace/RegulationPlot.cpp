@@ -8,7 +8,7 @@ RegulationPlot::RegulationPlot(QWidget *parent) : StripPlot(tr("ln K (nat)"), pa
 {
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding); // Qwt's default never shrinks below the hint
     setRightTitle(tr("resets"));
-    setFixedScale(Side::Right, {0.0, 1.0});
+    setFixedScale(Side::Right, {-0.05, 1.05}); // a curve on the frame would not be seen
 }
 
 void RegulationPlot::setAnalysis(const Analysis &analysis)

@@ -2,7 +2,9 @@
 
 #include <QLabel>
 #include <QRegularExpression>
+#include <QScrollArea>
 #include <QStringList>
+#include <QVBoxLayout>
 
 #include <algorithm>
 
@@ -86,6 +88,18 @@ QLabel *panelSentence()
     label->setObjectName(QStringLiteral("sentence"));
     label->setWordWrap(true);
     return label;
+}
+
+void setScrolledColumn(QWidget &panel, QWidget *column)
+{
+    auto *area = new QScrollArea;
+    area->setWidget(column);
+    area->setWidgetResizable(true);
+    area->setFrameShape(QFrame::NoFrame);
+    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    auto *layout = new QVBoxLayout(&panel);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(area);
 }
 
 } // namespace faintline

@@ -7,6 +7,7 @@
 #include <string>
 
 class QLabel;
+class QWidget;
 
 namespace faintline {
 
@@ -42,5 +43,8 @@ QString asHtml(const QString &text);
 QLabel *plainLabel();
 /// The same for sentences; its name is "sentence".
 QLabel *panelSentence();
+
+/// Fills a panel with a column, which is scrolled where it is too long.
+void setScrolledColumn(QWidget &panel, QWidget *column);
 
 } // namespace faintline

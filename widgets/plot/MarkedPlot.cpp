@@ -35,13 +35,15 @@ public:
         for (const Mark &mark : m_owner.marks()) {
             painter->setPen(QPen(mark.isUpright ? colours.text : colours.threshold, 1.2,
                                  mark.isUpright ? Qt::DashLine : Qt::SolidLine));
-            const QSizeF size = QFontMetricsF(painter->font()).size(0, mark.words) + QSizeF(8.0, 2.0);
+            const QFontMetricsF metrics(painter->font());
+            const QString words = metrics.elidedText(mark.words, Qt::ElideRight, canvas.width() - 12.0);
+            const QSizeF size = metrics.size(0, words) + QSizeF(8.0, 2.0);
             QRectF box(QPointF(), size);
             if (mark.isUpright) {
                 const double x = xMap.transform(mark.at);
                 painter->drawLine(QPointF(x, canvas.top()), QPointF(x, canvas.bottom()));
                 const bool isLeft = x + size.width() + 4.0 > canvas.right();
-                box.moveTopLeft({isLeft ? x - size.width() - 2.0 : x + 2.0, row});
+                box.moveTopLeft({isLeft ? std::max(canvas.left(), x - size.width() - 2.0) : x + 2.0, row});
                 row += size.height() + 1.0;
             } else {
                 const double y = yMap.transform(mark.at);
@@ -49,7 +51,7 @@ public:
                 box.moveTopLeft(
                     {canvas.right() - size.width() - 3.0, mark.isAbove ? y - size.height() - 1.0 : y + 1.0});
             }
-            if (mark.words.isEmpty())
+            if (words.isEmpty())
                 continue;
             QColor plate = colours.canvas;
             plate.setAlpha(215);
@@ -57,7 +59,7 @@ public:
             painter->setBrush(plate);
             painter->drawRoundedRect(box, 3.0, 3.0);
             painter->setPen(mark.isUpright ? colours.text : colours.threshold);
-            painter->drawText(box, Qt::AlignCenter, mark.words);
+            painter->drawText(box, Qt::AlignCenter, words);
         }
         if (m_owner.cursor()) {
             const double x = xMap.transform(*m_owner.cursor());
