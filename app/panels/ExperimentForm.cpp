@@ -1,6 +1,8 @@
 #include "app/panels/ExperimentForm.h"
 
-#include "app/panels/formInputs.h"
+#include "base/Error.h"
+#include "base/json.h"
+#include "base/numberText.h"
 #include "evaluate/experiments/peers.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
@@ -8,96 +10,90 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QDoubleSpinBox>
-#include <QFormLayout>
 #include <QGridLayout>
-#include <QHBoxLayout>
 #include <QLabel>
-#include <QSpinBox>
+#include <QStackedWidget>
 #include <QVBoxLayout>
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <utility>
 
 namespace faintline {
 
 namespace {
 
-    constexpr double mostSnrs = 60.0;
     constexpr std::size_t currentDetectors = 2; ///< with the current settings: the detector alone, and all of `detect`
 
     /// Frames of a block and signals that fit: Billon's geometry, made longer for longer lines.
     void fitBlocks(LineExperiment &lines)
     {
-        const int needed = int(std::ceil((lines.durationWindows + 50.0) * lines.stepsPerWindow));
-        if (needed <= lines.blockFrames)
+        if (lines.signalFrames() <= lines.blockFrames)
             return;
+        const int needed = int(std::ceil((lines.durationWindows + 50.0) * lines.stepsPerWindow));
         lines.blockFrames = needed;
         lines.frames = needed * 3 + needed / 2;
     }
 
-    /// Inputs side by side with a word between them.
-    QHBoxLayout *row(QWidget *first, std::initializer_list<std::pair<QString, QWidget *>> others)
+    /// Before an experiment is opened.
+    template <class S>
+    S initial()
     {
-        auto *layout = new QHBoxLayout;
-        layout->setSpacing(4);
-        layout->addWidget(first, 1);
-        for (const auto &[word, input] : others) {
-            layout->addWidget(new QLabel(word));
-            layout->addWidget(input, 1);
-        }
-        return layout;
+        S experiment;
+        experiment.snrDb = {-5.0, -4.0, -3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0};
+        return experiment;
     }
 
 } // namespace
 
 ExperimentForm::ExperimentForm(QWidget *parent)
-    : QWidget(parent), m_noise(new QComboBox), m_grid(new QGridLayout),
-      m_lowestDb(numberInput(-5, {-40, 40, 1, 1}, tr(" dB"), tr("Lowest SNR"))),
-      m_highestDb(numberInput(3, {-40, 40, 1, 1}, tr(" dB"), tr("Highest SNR"))),
-      m_stepDb(numberInput(1, {0.1, 20, 0.5, 1}, tr(" dB"), tr("Step between SNRs"))),
-      m_duration(numberInput(100, {1, 5000, 10, 0}, tr(" T_FT"), tr("Duration of a line, in windows"))),
-      m_drift(numberInput(0, {-5, 5, 0.05, 3}, tr(" cells/T_FT"), tr("Steady drift, in resolution cells per window"))),
-      m_wander(
-          numberInput(0, {0, 20, 0.5, 2}, tr(" cells"), tr("Standard deviation of the wander, in resolution cells"))),
-      m_wanderTime(numberInput(15, {1, 1000, 1, 0}, tr(" T_FT"), tr("Correlation time of the wander, in windows"))),
-      m_falseAlarms(
-          numberInput(1, {0.001, 1000, 1, 3}, tr(" /h"), tr("False alarms per hour to which all detectors are set"))),
-      m_runs(countInput(20, 1, 100000,
-                        tr("Number of runs of 30 lines each in simulated noise, or of lines added one at a "
-                           "time to a recording"))),
-      m_seed(countInput(1, 0, 2147483647, tr("Seed; the same seed gives identical results"))), m_meaning(plainLabel())
+    : QWidget(parent), m_noise(new QComboBox), m_forms(new QStackedWidget),
+      m_lines(new FieldForm<LineExperiment>(
+          tr("Lines"),
+          withMainFields(LineExperiment::fields(), {"snrDb", "durationWindows", "driftCellsPerWindow", "wanderCells",
+                                                    "wanderWindows", "runs", "seed"}),
+          initial<LineExperiment>())),
+      m_injection(new FieldForm<InjectionExperiment>(
+          tr("Lines"),
+          withMainFields(InjectionExperiment::fields(), {"snrDb", "durationSeconds", "driftHzPerSecond", "wanderHz",
+                                                         "wanderSeconds", "trials", "seed", "falseAlarmsPerHour"}),
+          initial<InjectionExperiment>())),
+      m_grid(new QGridLayout), m_meaning(plainLabel())
 {
-    m_noise->addItem(tr("in simulated noise"));
-    m_noise->addItem(tr("in this recording"));
+    m_noise->addItem(tr("In simulated noise"));
+    m_noise->addItem(tr("In this recording"));
     m_noise->setAccessibleName(tr("Noise to which the lines are added"));
     m_noise->setToolTip(
         tr("White noise as in Billon 2005, or the open recording, to which one line is added at a time"));
-
-    for (QDoubleSpinBox *box : {m_lowestDb, m_highestDb, m_stepDb})
-        box->setButtonSymbols(QAbstractSpinBox::NoButtons);
-
-    auto *form = new QFormLayout(this);
-    form->setContentsMargins(8, 6, 8, 6);
-    form->setVerticalSpacing(4);
-    form->setFieldGrowthPolicy(QFormLayout::ExpandingFieldsGrow);
-    form->addRow(tr("Lines"), m_noise);
-    form->addRow(tr("SNR"), row(m_lowestDb, {{tr("to"), m_highestDb}, {tr("by"), m_stepDb}}));
-    form->addRow(tr("Duration"), m_duration);
-    form->addRow(tr("Drift"), m_drift);
-    form->addRow(tr("Wander"), row(m_wander, {{tr("over"), m_wanderTime}}));
-    form->addRow(tr("Runs"), row(m_runs, {{tr("seed"), m_seed}}));
-    form->addRow(tr("False alarms"), m_falseAlarms);
-    form->addRow(tr("Detectors"), buildDetectors());
-    form->addRow(m_meaning);
+    m_forms->addWidget(m_lines);
+    m_forms->addWidget(m_injection);
+    auto *detectors = new QWidget;
+    auto *column = new QVBoxLayout(detectors);
+    column->setContentsMargins(8, 0, 8, 4);
+    column->addLayout(buildDetectors());
+    column->addWidget(m_meaning);
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 6, 0, 6);
+    layout->setSpacing(2);
+    auto *noise = new QHBoxLayout;
+    noise->setContentsMargins(8, 0, 8, 0);
+    noise->addWidget(m_noise);
+    layout->addLayout(noise);
+    layout->addWidget(m_forms);
+    layout->addWidget(detectors);
+    layout->addStretch(1);
     m_meaning->setWordWrap(true);
     QPalette faint = m_meaning->palette();
     faint.setColor(QPalette::WindowText, Theme::colours(*this).faintText);
     m_meaning->setPalette(faint);
     m_meaning->setFont(Theme::font(12));
-    connectInputs();
+
+    connect(m_noise, &QComboBox::currentIndexChanged, m_forms, &QStackedWidget::setCurrentIndex);
+    connect(m_noise, &QComboBox::currentIndexChanged, this, &ExperimentForm::changed);
+    connect(m_injection, &FieldFormBase::edited, this, [this] { m_isInjectionOwn = true; });
+    for (FieldFormBase *form : std::initializer_list<FieldFormBase *>{m_lines, m_injection})
+        connect(form, &FieldFormBase::edited, this, &ExperimentForm::changed);
+    connect(this, &ExperimentForm::changed, this, &ExperimentForm::showMeaning);
     showMeaning();
 }
 
@@ -128,42 +124,17 @@ void ExperimentForm::addDetector(QCheckBox *box)
 
 void ExperimentForm::setExperiment(const Experiment &experiment)
 {
-    if (const auto *lines = std::get_if<LineExperiment>(&experiment)) {
-        m_noise->setCurrentIndex(0);
-        m_duration->setValue(lines->durationWindows);
-        m_drift->setValue(lines->driftCellsPerWindow);
-        m_wander->setValue(lines->wanderCells);
-        m_wanderTime->setValue(lines->wanderWindows);
-        m_runs->setValue(lines->runs);
-        m_seed->setValue(lines->seed);
-        setSnrs(lines->snrDb);
-    } else if (const auto *injection = std::get_if<InjectionExperiment>(&experiment);
-               injection && m_windowSeconds > 0) {
-        m_noise->setCurrentIndex(1);
-        m_duration->setValue(injection->durationSeconds / m_windowSeconds);
-        m_drift->setValue(injection->driftHzPerSecond * m_windowSeconds * m_windowSeconds);
-        m_wander->setValue(injection->wanderHz * m_windowSeconds);
-        m_wanderTime->setValue(injection->wanderSeconds / m_windowSeconds);
-        m_runs->setValue(injection->trials);
-        m_seed->setValue(injection->seed);
-        m_falseAlarms->setValue(injection->falseAlarmsPerHour);
-        setSnrs(injection->snrDb);
-    } else {
+    const auto *lines = std::get_if<LineExperiment>(&experiment);
+    const auto *injection = std::get_if<InjectionExperiment>(&experiment);
+    if (!lines && (!injection || m_windowSeconds <= 0.0))
         return;
-    }
+    m_noise->setCurrentIndex(lines ? 0 : 1);
+    if (lines)
+        m_lines->setValue(*lines);
+    else
+        m_injection->setValue(*injection);
+    m_isInjectionOwn |= !lines;
     setDetectors(detectorsOf(experiment));
-}
-
-/// Lowest, highest, and mean step.
-void ExperimentForm::setSnrs(const std::vector<double> &snrDb)
-{
-    if (snrDb.empty())
-        return;
-    const auto [lowest, highest] = std::ranges::minmax(snrDb);
-    m_lowestDb->setValue(lowest);
-    m_highestDb->setValue(highest);
-    if (snrDb.size() > 1)
-        m_stepDb->setValue((highest - lowest) / double(snrDb.size() - 1));
 }
 
 void ExperimentForm::setDetectors(const std::vector<DetectorUnderTest> &detectors)
@@ -172,7 +143,7 @@ void ExperimentForm::setDetectors(const std::vector<DetectorUnderTest> &detector
         delete m_detectors.back();
         m_detectors.pop_back();
     }
-    const std::vector<DetectorUnderTest> known = peers(m_duration->value());
+    const std::vector<DetectorUnderTest> known = peers(durationWindows());
     for (std::size_t i = 0; i < currentDetectors; ++i)
         m_detectors[i]->setChecked(false);
     for (std::size_t i = 0; i < known.size(); ++i)
@@ -191,18 +162,6 @@ void ExperimentForm::setDetectors(const std::vector<DetectorUnderTest> &detector
     emit changed();
 }
 
-void ExperimentForm::connectInputs()
-{
-    connect(m_noise, &QComboBox::currentIndexChanged, this, &ExperimentForm::changed);
-    for (QDoubleSpinBox *box :
-         {m_lowestDb, m_highestDb, m_stepDb, m_duration, m_drift, m_wander, m_wanderTime, m_falseAlarms})
-        connect(box, &QDoubleSpinBox::valueChanged, this, &ExperimentForm::changed);
-    for (QSpinBox *box : {m_runs, m_seed})
-        connect(box, &QSpinBox::valueChanged, this, &ExperimentForm::changed);
-    connect(m_noise, &QComboBox::currentIndexChanged, this, &ExperimentForm::fitDuration);
-    connect(this, &ExperimentForm::changed, this, &ExperimentForm::showMeaning);
-}
-
 void ExperimentForm::setCurrent(const AnalysisSettings &settings, double windowSeconds, double recordingSeconds)
 {
     m_settings = settings;
@@ -211,15 +170,30 @@ void ExperimentForm::setCurrent(const AnalysisSettings &settings, double windowS
     if (windowSeconds <= 0.0)
         m_noise->setCurrentIndex(0);
     m_noise->setEnabled(windowSeconds > 0.0);
-    fitDuration();
+    if (windowSeconds > 0.0 && !m_isInjectionOwn)
+        suggestInjection();
     emit changed();
 }
 
-/// In a recording, a line must fit with noise on either side.
-void ExperimentForm::fitDuration()
+/// Lines like those in simulated noise, with noise on either side.
+void ExperimentForm::suggestInjection()
 {
-    if (isInRecording() && m_duration->value() * m_windowSeconds > 0.5 * m_recordingSeconds)
-        m_duration->setValue(std::floor(0.5 * m_recordingSeconds / m_windowSeconds));
+    const LineExperiment &like = m_lines->value();
+    InjectionExperiment injection = m_injection->value();
+    injection.durationSeconds =
+        m_windowSeconds * std::min(like.durationWindows, std::floor(0.5 * m_recordingSeconds / m_windowSeconds));
+    injection.wanderSeconds = like.wanderWindows * m_windowSeconds;
+    m_injection->setValue(injection);
+}
+
+double ExperimentForm::durationWindows() const
+{
+    return isInRecording() ? m_injection->value().durationSeconds / m_windowSeconds : m_lines->value().durationWindows;
+}
+
+const std::vector<double> &ExperimentForm::snrDb() const
+{
+    return isInRecording() ? m_injection->value().snrDb : m_lines->value().snrDb;
 }
 
 bool ExperimentForm::isInRecording() const
@@ -247,7 +221,7 @@ std::vector<DetectorUnderTest> ExperimentForm::chosen() const
             whole.settings.spectrogram.windowSeconds = 0.0; // a window of simulated noise lasts a second
         result.push_back(std::move(whole));
     }
-    const std::vector<DetectorUnderTest> all = peers(m_duration->value());
+    const std::vector<DetectorUnderTest> all = peers(durationWindows());
     for (std::size_t i = 0; i < all.size(); ++i)
         if (m_detectors[i + currentDetectors]->isChecked())
             result.push_back(all[i]);
@@ -257,28 +231,9 @@ std::vector<DetectorUnderTest> ExperimentForm::chosen() const
     return result;
 }
 
-std::vector<double> ExperimentForm::snrDb() const
-{
-    std::vector<double> result;
-    for (int i = 0; double(i) < mostSnrs; ++i) {
-        const double db = m_lowestDb->value() + i * m_stepDb->value();
-        if (db > m_highestDb->value() + 1e-9)
-            break;
-        result.push_back(std::round(db * 1e6) / 1e6);
-    }
-    return result;
-}
-
 LineExperiment ExperimentForm::lines() const
 {
-    LineExperiment lines;
-    lines.seed = m_seed->value();
-    lines.runs = m_runs->value();
-    lines.snrDb = snrDb();
-    lines.durationWindows = m_duration->value();
-    lines.driftCellsPerWindow = m_drift->value();
-    lines.wanderCells = m_wander->value();
-    lines.wanderWindows = m_wanderTime->value();
+    LineExperiment lines = m_lines->value();
     lines.detectors = chosen();
     fitBlocks(lines);
     return lines;
@@ -286,16 +241,8 @@ LineExperiment ExperimentForm::lines() const
 
 InjectionExperiment ExperimentForm::injection(const QString &recording) const
 {
-    InjectionExperiment injection;
+    InjectionExperiment injection = m_injection->value();
     injection.recording = recording.toStdString();
-    injection.seed = m_seed->value();
-    injection.trials = m_runs->value();
-    injection.snrDb = snrDb();
-    injection.durationSeconds = m_duration->value() * m_windowSeconds;
-    injection.driftHzPerSecond = m_drift->value() / (m_windowSeconds * m_windowSeconds);
-    injection.wanderHz = m_wander->value() / m_windowSeconds;
-    injection.wanderSeconds = m_wanderTime->value() * m_windowSeconds;
-    injection.falseAlarmsPerHour = m_falseAlarms->value();
     injection.settings = m_settings;
     injection.detectors = chosen();
     return injection;
@@ -307,51 +254,65 @@ QString ExperimentForm::name() const
     for (const DetectorUnderTest &one : chosen())
         detectors << QString::fromStdString(one.name);
     const auto db = [](double value) { return numberText(value, value == std::floor(value) ? 0 : 1); };
+    const auto [lowest, highest] = std::ranges::minmax(snrDb());
+    const double wander =
+        isInRecording() ? m_injection->value().wanderHz * m_windowSeconds : m_lines->value().wanderCells;
     return tr("%1 · %2 … %3 dB · %4 T_FT%5")
-        .arg(detectors.join(QStringLiteral(", ")), db(m_lowestDb->value()), db(m_highestDb->value()),
-             numberText(m_duration->value(), 0),
-             m_wander->value() > 0.0 ? tr(" · wander %1").arg(numberText(m_wander->value(), 1)) : QString());
+        .arg(detectors.join(QStringLiteral(", ")), db(lowest), db(highest), numberText(durationWindows(), 0),
+             wander > 0.0 ? tr(" · wander %1").arg(numberText(wander, 1)) : QString());
+}
+
+/// Throws Error.
+void ExperimentForm::check() const
+{
+    if (chosen().empty())
+        throw Error("detectors", tr("choose at least one").toStdString());
+    if (!isInRecording())
+        return checkExperiment(lines());
+    const InjectionExperiment &injection = m_injection->value();
+    checkFields(injection, InjectionExperiment::fields());
+    if (injection.snrDb.empty())
+        throw Error("snrDb", "must hold at least one value");
+    if (injection.durationSeconds > 0.5 * m_recordingSeconds)
+        throw fieldError(
+            "durationSeconds", formatNumber(injection.durationSeconds),
+            tr("a line must last at most half of what is analysed, %1 s").arg(0.5 * m_recordingSeconds).toStdString());
 }
 
 QString ExperimentForm::obstacle() const
 {
-    if (chosen().empty())
-        return tr("Choose at least one detector.");
-    if (snrDb().empty())
-        return tr("The highest SNR lies below the lowest.");
-    if (!isInRecording()) {
-        try {
-            checkExperiment(lines());
-        } catch (const Error &error) {
-            return messageText(error.what());
-        }
+    try {
+        check();
+        return {};
+    } catch (const Error &error) {
+        return messageText(error.what());
     }
-    return {};
 }
 
 void ExperimentForm::showMeaning()
 {
-    m_falseAlarms->setEnabled(isInRecording());
-    QString text;
-    if (isInRecording() && m_windowSeconds > 0.0)
-        text = tr("With T_FT = %1 s, lines last %2; %3 false alarms per hour.")
-                   .arg(m_windowSeconds, 0, 'g', 3)
-                   .arg(secondsText(m_duration->value() * m_windowSeconds, 0.1), powerText(m_falseAlarms->value(), 3));
-    else
-        text =
-            tr("%1 lines per SNR; one false alarm per block of noise.").arg(m_runs->value() * lines().signalsPerRun());
     const QString why = obstacle();
-    m_meaning->setText(why.isEmpty() ? text : why);
+    m_meaning->setText(!why.isEmpty()    ? why
+                       : isInRecording() ? tr("In windows of %1 s, lines of %2 windows.")
+                                               .arg(m_windowSeconds, 0, 'g', 3)
+                                               .arg(numberText(durationWindows(), 0))
+                                         : tr("%1 lines per SNR; one false alarm per block of noise.")
+                                               .arg(m_lines->value().runs * lines().signalsPerRun()));
 }
 
-void ExperimentForm::setQuick(int runs, const QStringList &detectors, double lowestDb, double highestDb, double stepDb)
+void ExperimentForm::setQuick(int runs, const QStringList &detectors, const std::vector<double> &snrDb)
 {
-    m_runs->setValue(runs);
-    m_lowestDb->setValue(lowestDb);
-    m_highestDb->setValue(highestDb);
-    m_stepDb->setValue(stepDb);
+    LineExperiment quick = m_lines->value();
+    quick.runs = runs;
+    quick.snrDb = snrDb;
+    m_lines->setValue(quick);
+    InjectionExperiment injection = m_injection->value();
+    injection.trials = runs;
+    injection.snrDb = snrDb;
+    m_injection->setValue(injection);
     for (QCheckBox *box : m_detectors)
         box->setChecked(detectors.contains(box->text()));
+    emit changed();
 }
 
 } // namespace faintline

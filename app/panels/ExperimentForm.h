@@ -2,25 +2,20 @@
 
 #include "evaluate/experiments/Campaign.h"
 #include "plan/AnalysisSettings.h"
-
-#include <QWidget>
+#include "widgets/forms/FieldForm.h"
 
 #include <optional>
 #include <vector>
 
 class QCheckBox;
 class QComboBox;
-class QDoubleSpinBox;
 class QGridLayout;
 class QLabel;
-class QSpinBox;
+class QStackedWidget;
 
 namespace faintline {
 
-/// Form of an experiment: kind of lines, SNRs, noise, and detectors.
-///
-/// Times are in windows T_FT and frequencies in resolution cells 1/T_FT, as in the papers; their values for the open
-/// recording are shown below.
+/// Form of an experiment: lines in simulated noise or in the open recording, from the tables of both, and detectors.
 class ExperimentForm : public QWidget
 {
     Q_OBJECT
@@ -45,7 +40,7 @@ public:
     QString obstacle() const;
 
     /// Small and fast values, for a quick look and for tests.
-    void setQuick(int runs, const QStringList &detectors, double lowestDb, double highestDb, double stepDb);
+    void setQuick(int runs, const QStringList &detectors, const std::vector<double> &snrDb);
 
 signals:
     void changed();
@@ -53,31 +48,25 @@ signals:
 private:
     QLayout *buildDetectors();
     void addDetector(QCheckBox *box);
-    void connectInputs();
-    void setSnrs(const std::vector<double> &snrDb);
     void setDetectors(const std::vector<DetectorUnderTest> &detectors);
-    void fitDuration();
+    void suggestInjection();
+    double durationWindows() const;
+    const std::vector<double> &snrDb() const;
     std::vector<DetectorUnderTest> chosen() const;
-    std::vector<double> snrDb() const;
+    void check() const;
     void showMeaning();
 
     AnalysisSettings m_settings;
     double m_windowSeconds = 0.0;
     double m_recordingSeconds = 0.0;
+    bool m_isInjectionOwn = false; ///< not as suggested for the recording
     QComboBox *m_noise;
+    QStackedWidget *m_forms; ///< of both
+    FieldForm<LineExperiment> *m_lines;
+    FieldForm<InjectionExperiment> *m_injection;
     QGridLayout *m_grid;                     ///< of the detectors, in two columns
     std::vector<QCheckBox *> m_detectors;    ///< two with the current settings, the peers, and m_others
     std::vector<DetectorUnderTest> m_others; ///< of the experiment that is shown
-    QDoubleSpinBox *m_lowestDb;
-    QDoubleSpinBox *m_highestDb;
-    QDoubleSpinBox *m_stepDb;
-    QDoubleSpinBox *m_duration;
-    QDoubleSpinBox *m_drift;
-    QDoubleSpinBox *m_wander;
-    QDoubleSpinBox *m_wanderTime;
-    QDoubleSpinBox *m_falseAlarms;
-    QSpinBox *m_runs;
-    QSpinBox *m_seed;
     QLabel *m_meaning;
 };
 

@@ -3,10 +3,11 @@
 #include "scene/LineScene.h"
 #include "signal/Recording.h"
 
+#include "widgets/forms/FieldForm.h"
+
 #include <QDialog>
 
 class QDialogButtonBox;
-class QDoubleSpinBox;
 class QLabel;
 
 namespace faintline {
@@ -20,20 +21,13 @@ public:
     InjectDialog(const RecordingInfo &recording, double startSeconds, double frequencyHz, double windowSeconds,
                  QWidget *parent = nullptr);
 
-    LineSettings line() const;
+    const LineSettings &line() const { return m_line->value(); }
 
 private:
     void check();
 
     RecordingInfo m_recording;
-    double m_windowSeconds;
-    QDoubleSpinBox *m_snr;
-    QDoubleSpinBox *m_start;
-    QDoubleSpinBox *m_duration;
-    QDoubleSpinBox *m_frequency;
-    QDoubleSpinBox *m_drift;
-    QDoubleSpinBox *m_wander;
-    QDoubleSpinBox *m_wanderTime;
+    FieldForm<LineSettings> *m_line;
     QLabel *m_why;
     QDialogButtonBox *m_buttons;
 };

@@ -1,7 +1,6 @@
 #include "app/panels/SequentialControls.h"
 
 #include "app/control/SequentialTests.h"
-#include "app/panels/ScanTestForm.h"
 
 #include <QLabel>
 #include <QProgressBar>
@@ -12,14 +11,16 @@
 namespace faintline {
 
 SequentialControls::SequentialControls(SequentialTests &tests, QWidget *parent)
-    : QWidget(parent), m_tests(tests), m_form(new ScanTestForm), m_cancel(new QPushButton(tr("Cancel"))),
-      m_onSelection(new QPushButton(tr("Test the visible part"))), m_progress(new QProgressBar), m_state(new QLabel)
+    : QWidget(parent), m_tests(tests), m_form(new FieldForm<ScanTest>(tr("Test"))),
+      m_cancel(new QPushButton(tr("Cancel"))), m_onSelection(new QPushButton(tr("Test the visible part"))),
+      m_progress(new QProgressBar), m_state(new QLabel)
 {
     auto *area = new QScrollArea;
     area->setWidget(m_form);
     area->setWidgetResizable(true);
     area->setFrameShape(QFrame::NoFrame);
     area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    m_form->setAccessibleName(tr("Settings of the sequential test"));
     m_progress->setRange(0, 1000);
     m_progress->setTextVisible(false);
     m_progress->setFixedHeight(8);

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <QWidget>
+#include "evaluate/sequential/ScanTest.h"
+#include "widgets/forms/FieldForm.h"
 
 class QLabel;
 class QProgressBar;
@@ -8,7 +9,6 @@ class QPushButton;
 
 namespace faintline {
 
-class ScanTestForm;
 class SequentialTests;
 
 /// The column that starts sequential tests: the form of a test's settings, the buttons that start and cancel tests, on
@@ -20,7 +20,7 @@ class SequentialControls : public QWidget
 public:
     explicit SequentialControls(SequentialTests &tests, QWidget *parent = nullptr);
 
-    ScanTestForm &form() { return *m_form; }
+    FieldForm<ScanTest> &form() { return *m_form; }
     /// Whether a test can run on the visible part of the recording.
     void setOnSelectionEnabled(bool isEnabled);
 
@@ -32,7 +32,7 @@ private:
     void showBusy(bool isBusy);
 
     SequentialTests &m_tests;
-    ScanTestForm *m_form;
+    FieldForm<ScanTest> *m_form;
     QPushButton *m_cancel;
     QPushButton *m_onSelection;
     QProgressBar *m_progress;

@@ -1,7 +1,6 @@
 #include "app/panels/SequentialPanel.h"
 
 #include "app/document/Document.h"
-#include "app/panels/ScanTestForm.h"
 #include "app/panels/SequentialControls.h"
 #include "app/panels/TrajectoryPage.h"
 #include "app/panels/sequentialBars.h"
@@ -112,7 +111,7 @@ SequentialPanel::SequentialPanel(Document &document, SequentialTests &tests, QWi
     restart();
 }
 
-ScanTestForm &SequentialPanel::form()
+FieldForm<ScanTest> &SequentialPanel::form()
 {
     return m_controls->form();
 }
@@ -197,12 +196,12 @@ void SequentialPanel::connectTests()
 
 void SequentialPanel::run()
 {
-    start(form().test());
+    start(form().value());
 }
 
 void SequentialPanel::start(const ScanTest &test)
 {
-    form().setTest(test);
+    form().setValue(test);
     try {
         m_tests.start(test);
     } catch (const Error &error) {
@@ -228,7 +227,7 @@ void SequentialPanel::startOnSelection()
     selection.firstCell = frequency.nearest(visible.frequency.low + 0.5 * frequency.step);
     selection.cellCount = frequency.nearest(visible.frequency.high - 0.5 * frequency.step) - selection.firstCell + 1;
     try {
-        m_tests.start(selection, form().test().sprt);
+        m_tests.start(selection, form().value().sprt);
     } catch (const Error &error) {
         emit failed(error);
     }

@@ -2,6 +2,8 @@
 
 #include "app/control/SequentialTests.h"
 #include "app/panels/SequentialViews.h"
+#include "evaluate/sequential/ScanTest.h"
+#include "widgets/forms/FieldForm.h"
 
 #include <QWidget>
 
@@ -14,7 +16,6 @@ namespace faintline {
 class BarPlot;
 class ChartPlot;
 class Document;
-class ScanTestForm;
 class SequentialControls;
 class TrajectoryPage;
 class WalkPlot;
@@ -34,7 +35,7 @@ public:
     void start(const ScanTest &test);
     void startOnSelection(); ///< tests the visible part of the recording
 
-    ScanTestForm &form();
+    FieldForm<ScanTest> &form();
     SequentialControls &controls() { return *m_controls; }
     WalkPlot &walk() { return *m_walk; }
     BarPlot &stopping() { return *m_stopping; }

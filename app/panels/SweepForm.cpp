@@ -1,6 +1,5 @@
 #include "app/panels/SweepForm.h"
 
-#include "app/panels/formInputs.h"
 #include "base/Error.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
@@ -8,7 +7,6 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QDoubleSpinBox>
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -25,6 +23,7 @@ namespace {
 
     constexpr double windowsOfALine = 60.0; ///< initial duration of a line
     constexpr double windowsOfMargin = 30.0;
+    constexpr double samplesOfAWindow = 400.0; ///< of simulated noise
 
     QHBoxLayout *row(std::initializer_list<QWidget *> widgets)
     {
@@ -68,19 +67,17 @@ namespace {
 } // namespace
 
 SweepForm::SweepForm(QWidget *parent)
-    : QWidget(parent), m_parameter(new QComboBox), m_from(new QLineEdit), m_to(new QLineEdit),
-      m_steps(countInput(6, 2, 60, tr("Number of values"))), m_byFactors(new QCheckBox(tr("logarithmic"))),
-      m_noise(new QComboBox),
-      m_snr(numberInput(0, {-40, 40, 1, 1}, tr(" dB"),
-                        tr("SNR of a line, in a rectangular window of the length set, else of the automatic one"))),
-      m_duration(numberInput(30, {0.001, 1e6, 1, 1}, tr(" s"), tr("Duration of a line"))),
-      m_margin(numberInput(15, {0, 1e6, 1, 1}, tr(" s"),
-                           tr("Noise before and after a line, in which false alarms are counted"))),
-      m_drift(numberInput(0, {-1e6, 1e6, 1, 3}, tr(" Hz/s"), tr("Steady drift"))),
-      m_wander(numberInput(0, {0, 1e6, 1, 2}, tr(" Hz"), tr("Standard deviation of the wander"))),
-      m_trials(countInput(40, 1, 100000, tr("Number of lines on which every value is tried"))),
-      m_seed(countInput(1, 0, 2147483647, tr("Seed; the same seed gives identical results"))), m_meaning(plainLabel())
+    : QWidget(parent), m_parameter(new QComboBox), m_from(new QLineEdit), m_to(new QLineEdit), m_steps(new QSpinBox),
+      m_byFactors(new QCheckBox(tr("logarithmic"))), m_noise(new QComboBox),
+      m_lines(new FieldForm<SweepExperiment>(
+          tr("Lines"),
+          withMainFields(SweepExperiment::fields(), {"snrDb", "durationSeconds", "marginSeconds", "driftHzPerSecond",
+                                                     "wanderHz", "wanderSeconds", "trials", "seed"}))),
+      m_meaning(plainLabel())
 {
+    m_steps->setRange(2, 60);
+    m_steps->setValue(6);
+    m_steps->setAccessibleName(tr("Number of values"));
     m_parameter->setAccessibleName(tr("Setting or property of the line to vary"));
     m_parameter->setMaxVisibleItems(30);
     m_parameter->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
@@ -100,10 +97,7 @@ SweepForm::SweepForm(QWidget *parent)
     form->addRow(tr("Values"), row({m_from, new QLabel(tr("to")), m_to}));
     form->addRow(tr("Steps"), row({m_steps, m_byFactors}));
     form->addRow(tr("Lines"), m_noise);
-    form->addRow(tr("SNR"), m_snr);
-    form->addRow(tr("Duration"), row({m_duration, new QLabel(tr("±")), m_margin}));
-    form->addRow(tr("Drift"), row({m_drift, new QLabel(tr("wander")), m_wander}));
-    form->addRow(tr("Trials"), row({m_trials, new QLabel(tr("seed")), m_seed}));
+    form->addRow(m_lines);
     form->addRow(m_meaning);
     m_meaning->setWordWrap(true);
     m_meaning->setTextFormat(Qt::PlainText);
@@ -113,10 +107,8 @@ SweepForm::SweepForm(QWidget *parent)
     connect(m_parameter, &QComboBox::currentIndexChanged, this, &SweepForm::suggestRange);
     for (QLineEdit *edit : {m_from, m_to})
         connect(edit, &QLineEdit::textChanged, this, &SweepForm::changed);
-    for (QDoubleSpinBox *box : {m_snr, m_duration, m_margin, m_drift, m_wander})
-        connect(box, &QDoubleSpinBox::valueChanged, this, &SweepForm::changed);
-    for (QSpinBox *box : {m_steps, m_trials, m_seed})
-        connect(box, &QSpinBox::valueChanged, this, &SweepForm::changed);
+    connect(m_lines, &FieldFormBase::edited, this, &SweepForm::changed);
+    connect(m_steps, &QSpinBox::valueChanged, this, &SweepForm::changed);
     connect(m_byFactors, &QCheckBox::toggled, this, &SweepForm::changed);
     connect(m_noise, &QComboBox::currentIndexChanged, this, &SweepForm::changed);
     connect(this, &SweepForm::changed, this, &SweepForm::showMeaning);
@@ -137,8 +129,11 @@ void SweepForm::setCurrent(const AnalysisSettings &settings, const QString &reco
     if (isOtherDetector)
         fillParameters();
     if (isOther && windowSeconds > 0.0) {
-        m_duration->setValue(windowsOfALine * windowSeconds);
-        m_margin->setValue(windowsOfMargin * windowSeconds);
+        SweepExperiment lines = m_lines->value();
+        lines.sampleRateHz = samplesOfAWindow / windowSeconds;
+        lines.durationSeconds = windowsOfALine * windowSeconds;
+        lines.marginSeconds = lines.wanderSeconds = windowsOfMargin * windowSeconds;
+        m_lines->setValue(lines);
     }
     emit changed();
 }
@@ -176,10 +171,13 @@ void SweepForm::setRange(double from, double to, int steps, bool isLogarithmic)
 
 void SweepForm::setLines(double snrDb, double durationSeconds, int trials)
 {
-    m_snr->setValue(snrDb);
-    m_duration->setValue(durationSeconds);
-    m_margin->setValue(0.5 * durationSeconds);
-    m_trials->setValue(trials);
+    SweepExperiment lines = m_lines->value();
+    lines.snrDb = snrDb;
+    lines.durationSeconds = durationSeconds;
+    lines.marginSeconds = lines.wanderSeconds = 0.5 * durationSeconds;
+    lines.trials = trials;
+    m_lines->setValue(lines);
+    emit changed();
 }
 
 void SweepForm::setExperiment(const SweepExperiment &sweep)
@@ -193,13 +191,8 @@ void SweepForm::setExperiment(const SweepExperiment &sweep)
                                && sweep.values == sweepValues(sweep.parameter, first, last, count, true);
     setRange(first, last, count, isLogarithmic);
     m_noise->setCurrentIndex(!sweep.recording.empty() && !m_recording.isEmpty() ? 1 : 0);
-    m_snr->setValue(sweep.snrDb);
-    m_duration->setValue(sweep.durationSeconds);
-    m_margin->setValue(sweep.marginSeconds);
-    m_drift->setValue(sweep.driftHzPerSecond);
-    m_wander->setValue(sweep.wanderHz);
-    m_trials->setValue(sweep.trials);
-    m_seed->setValue(sweep.seed);
+    m_lines->setValue(sweep);
+    emit changed();
 }
 
 const FieldInfo &SweepForm::field() const
@@ -209,11 +202,9 @@ const FieldInfo &SweepForm::field() const
 
 double SweepForm::presentValue(const FieldInfo &info) const
 {
-    SweepExperiment line;
-    setLine(line);
     for (const Field<SweepExperiment> &property : lineProperties())
         if (property.name == info.name)
-            return asNumber(*property.get(line));
+            return asNumber(*property.get(m_lines->value()));
     const std::optional<FieldValue> held = settingField(info.name).get(m_settings);
     return held ? asNumber(*held) : 0.0;
 }
@@ -244,32 +235,15 @@ bool SweepForm::isInRecording() const
 
 SweepExperiment SweepForm::experiment() const
 {
-    SweepExperiment sweep;
+    SweepExperiment sweep = m_lines->value();
     sweep.settings = m_settings;
     sweep.settings.selection = isInRecording() ? m_settings.selection : SelectionSettings();
-    const double setSeconds = sweep.settings.spectrogram.windowSeconds;
-    const double windowSeconds = setSeconds > 0.0 ? setSeconds : m_windowSeconds > 0.0 ? m_windowSeconds : 0.5;
     sweep.parameter = field().name;
     const double from = numberOf(*m_from, "from"), to = numberOf(*m_to, "to");
     sweep.values = sweepValues(sweep.parameter, from, to, m_steps->value(), m_byFactors->isChecked());
     sweep.recording = isInRecording() ? m_recording.toStdString() : std::string();
-    // Simulated noise has as many cells as a window of 400 samples, whatever the window's length.
-    sweep.sampleRateHz = 400.0 / windowSeconds;
-    sweep.seed = m_seed->value();
-    sweep.trials = m_trials->value();
-    sweep.marginSeconds = m_margin->value();
-    setLine(sweep);
     checkExperiment(sweep);
     return sweep;
-}
-
-void SweepForm::setLine(SweepExperiment &sweep) const
-{
-    sweep.snrDb = m_snr->value();
-    sweep.durationSeconds = m_duration->value();
-    sweep.driftHzPerSecond = m_drift->value();
-    sweep.wanderHz = m_wander->value();
-    sweep.wanderSeconds = 0.5 * sweep.durationSeconds;
 }
 
 QString SweepForm::name() const

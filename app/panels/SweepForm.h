@@ -1,13 +1,10 @@
 #pragma once
 
 #include "evaluate/experiments/SweepExperiment.h"
-
-#include <QString>
-#include <QWidget>
+#include "widgets/forms/FieldForm.h"
 
 class QCheckBox;
 class QComboBox;
-class QDoubleSpinBox;
 class QLabel;
 class QLineEdit;
 class QSpinBox;
@@ -48,7 +45,6 @@ private:
     void showMeaning();
     const FieldInfo &field() const;
     double presentValue(const FieldInfo &info) const;
-    void setLine(SweepExperiment &sweep) const;
 
     AnalysisSettings m_settings;
     QString m_recording;
@@ -59,13 +55,7 @@ private:
     QSpinBox *m_steps;
     QCheckBox *m_byFactors;
     QComboBox *m_noise;
-    QDoubleSpinBox *m_snr;
-    QDoubleSpinBox *m_duration;
-    QDoubleSpinBox *m_margin;
-    QDoubleSpinBox *m_drift;
-    QDoubleSpinBox *m_wander;
-    QSpinBox *m_trials;
-    QSpinBox *m_seed;
+    FieldForm<SweepExperiment> *m_lines;
     QLabel *m_meaning;
 };
 

@@ -31,7 +31,8 @@ void measureCurves(MainWindow &window)
 {
     constexpr int runs = 2;
     window.evaluation().form().setQuick(
-        runs, {QStringLiteral("SMD 5 slopes"), QStringLiteral("3 of 4"), QStringLiteral("integrator")}, -5, 3, 2);
+        runs, {QStringLiteral("SMD 5 slopes"), QStringLiteral("3 of 4"), QStringLiteral("integrator")},
+        {-5, -3, -1, 1, 3});
     window.evaluation().start();
     settleExperiments(window);
 }

@@ -45,19 +45,26 @@ const std::vector<Field<LineSettings>> &LineSettings::fields()
     static const std::vector<Field<S>> table{
         field(&S::snrDb, "snrDb", "dB", -60.0, 120.0,
               "Power of the line over the noise power in one resolution cell of a rectangular window of "
-              "referenceSeconds."),
-        field(&S::referenceSeconds, "referenceSeconds", "s", 1e-6, 1e6,
-              "Length of the window to which the SNR refers."),
-        field(&S::startSeconds, "startSeconds", "s", 0.0, 1e9, "Start time of the line."),
+              "referenceSeconds.")
+            .labelled("SNR"),
+        field(&S::referenceSeconds, "referenceSeconds", "s", 1e-6, 1e6, "Length of the window to which the SNR refers.")
+            .labelled("SNR in a window of"),
+        field(&S::startSeconds, "startSeconds", "s", 0.0, 1e9, "Start time of the line.").labelled("Start"),
         field(&S::durationSeconds, "durationSeconds", "s", 0.0, 1e9,
               "Duration of the line; 0 extends it to the end of "
-              "the recording."),
-        field(&S::frequencyHz, "frequencyHz", "Hz", -1e12, 1e12, "Frequency of the line at its start."),
-        field(&S::driftHzPerSecond, "driftHzPerSecond", "Hz/s", -1e9, 1e9, "Constant drift of the frequency."),
-        field(&S::wanderHz, "wanderHz", "Hz", 0.0, 1e9, "Standard deviation of the random wander around the drift."),
-        field(&S::wanderSeconds, "wanderSeconds", "s", 1e-6, 1e9, "Correlation time of the wander."),
+              "the recording.")
+            .labelled("Duration"),
+        field(&S::frequencyHz, "frequencyHz", "Hz", -1e12, 1e12, "Frequency of the line at its start.")
+            .labelled("Frequency"),
+        field(&S::driftHzPerSecond, "driftHzPerSecond", "Hz/s", -1e9, 1e9, "Constant drift of the frequency.")
+            .labelled("Drift"),
+        field(&S::wanderHz, "wanderHz", "Hz", 0.0, 1e9, "Standard deviation of the random wander around the drift.")
+            .labelled("Wander"),
+        field(&S::wanderSeconds, "wanderSeconds", "s", 1e-6, 1e9, "Correlation time of the wander.")
+            .labelled("Time of the wander"),
         field(&S::fading, "fading", fadingNames, "Whether the amplitude is constant or fades."),
-        field(&S::fadingSeconds, "fadingSeconds", "s", 1e-6, 1e9, "Correlation time of the fading."),
+        field(&S::fadingSeconds, "fadingSeconds", "s", 1e-6, 1e9, "Correlation time of the fading.")
+            .labelled("Time of the fading"),
         field(&S::fluctuation, "fluctuation", fluctuationNames,
               "Fluctuation of the power about its mean: one power for the whole line (Swerling 1 and 3), or one for "
               "each referenceSeconds (2 and 4)."),

@@ -52,7 +52,7 @@ private:
         return QTest::qWaitFor([this] { return !m_window->experiments().isBusy(); }, patience);
     }
     const Experiments::Entry &shown() { return *m_window->experiments().entry(m_window->evaluation().shown()); }
-    void fillForm(int runs) { m_window->evaluation().form().setQuick(runs, {"3 of 4", "integrator"}, 0.0, 3.0, 3.0); }
+    void fillForm(int runs) { m_window->evaluation().form().setQuick(runs, {"3 of 4", "integrator"}, {0.0, 3.0}); }
 
     QTemporaryDir m_folder;
     std::unique_ptr<MainWindow> m_window;
@@ -159,10 +159,10 @@ void tst_Evaluation::oneAfterTheOther()
 void tst_Evaluation::whatCannotRunSaysWhy()
 {
     ExperimentForm &form = m_window->evaluation().form();
-    form.setQuick(1, {}, 0.0, 3.0, 3.0);
+    form.setQuick(1, {}, {0.0, 3.0});
     QVERIFY(form.obstacle().contains("detector"));
-    form.setQuick(1, {"3 of 4"}, 3.0, 0.0, 1.0);
-    QVERIFY(form.obstacle().contains("SNR"));
+    form.setQuick(1, {"3 of 4"}, {});
+    QVERIFY(form.obstacle().contains("snrDb"));
     fillForm(1);
     QCOMPARE(form.obstacle(), QString());
 }
@@ -202,7 +202,8 @@ void tst_Evaluation::theFormShowsTheOpenedExperiment()
     LineExperiment lines;
     lines.runs = 2;
     lines.seed = 9;
-    lines.snrDb = {-2.0, 0.5, 3.0};
+    lines.snrDb = {-2.0, 0.0, 3.0}; // not equally spaced
+    lines.fading = Fading::Rayleigh;
     lines.durationWindows = 80.0;
     lines.driftCellsPerWindow = 0.1;
     lines.detectors = {peer("integrator", 80.0), peer("energy", 80.0)};
@@ -238,7 +239,7 @@ void tst_Evaluation::theFormShowsTheOpenedExperiment()
 void tst_Evaluation::linesInThisRecording()
 {
     ExperimentForm &form = m_window->evaluation().form();
-    form.setQuick(4, {"integrator"}, 6.0, 6.0, 1.0);
+    form.setQuick(4, {"integrator"}, {6.0});
     form.setInRecording(true);
     m_window->evaluation().start();
     QVERIFY(idle());

@@ -4,7 +4,6 @@
 #include "app/document/saveView.h"
 #include "app/document/scanScenario.h"
 #include "app/openWindow.h"
-#include "app/panels/ScanTestForm.h"
 #include "app/panels/SequentialPanel.h"
 #include "app/panels/TrajectoryPage.h"
 #include "app/panels/sequentialSentences.h"
@@ -288,7 +287,7 @@ void tst_Sequential::settingsComeFromTheForm()
     edit->selectAll();
     QTest::keyClicks(edit, "0.1");
     QTest::keyClick(edit, Qt::Key_Return);
-    QCOMPARE(panel().form().test().sprt.falseAlarm, 0.1);
+    QCOMPARE(panel().form().value().sprt.falseAlarm, 0.1);
     for (QPushButton *button : panel().findChildren<QPushButton *>())
         if (button->text() == "Run")
             QTest::mouseClick(button, Qt::LeftButton);
@@ -350,9 +349,9 @@ void tst_Sequential::aNewRunReplacesTheOld()
 void tst_Sequential::theRecordingsViewIsTested()
 {
     openLine();
-    ScanTest test = panel().form().test();
+    ScanTest test = panel().form().value();
     test.sprt.cutOffStage = 0; // 20 stages of the radar's are less than this line takes
-    panel().form().setTest(test);
+    panel().form().setValue(test);
     Viewport &viewport = m_window->document().viewport();
     viewport.zoomTo({25.0, 50.0}, {100.0, 140.0}); // where the line is
     panel().startOnSelection();
@@ -376,12 +375,12 @@ void tst_Sequential::theRecordingsViewIsTested()
     test.sprt.cutOffStage = 3;
     test.sprt.falseAlarm = 1e-12; // far from decided by then
     test.sprt.miss = 1e-12;
-    panel().form().setTest(test);
+    panel().form().setValue(test);
     panel().startOnSelection();
     QVERIFY(settle());
     QCOMPARE(tests().walks()[0].second.stages, Index(3));
     QVERIFY(tests().walks()[0].second.isForced);
-    panel().form().setTest(before);
+    panel().form().setValue(before);
 
     viewport.zoomTo({0.0, 15.0}, {300.0, 400.0}); // where there is nothing
     panel().startOnSelection();

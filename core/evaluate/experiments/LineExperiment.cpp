@@ -18,13 +18,18 @@ const std::vector<Field<LineExperiment>> &LineExperiment::fields()
         field(&S::stepsPerWindow, "stepsPerWindow", "", 1.0, 16.0, "Frames per window, k_t."),
         field(&S::binsPerCell, "binsPerCell", "", 1.0, 16.0, "Bins per resolution cell, k_f."),
         field(&S::window, "window", windowShapeNames, "Shape of the window."),
-        field(&S::snrDb, "snrDb", "dB", -60.0, 60.0, "Signal-to-noise ratios in a frame with a rectangular window."),
-        field(&S::durationWindows, "durationWindows", "windows", 0.5, 1e5, "Duration of a line."),
-        field(&S::driftCellsPerWindow, "driftCellsPerWindow", "cells/window", -100.0, 100.0, "Steady drift of a line."),
-        field(&S::wanderCells, "wanderCells", "cells", 0.0, 1000.0, "Standard deviation of a line's wander."),
-        field(&S::wanderWindows, "wanderWindows", "windows", 0.01, 1e5, "Correlation time of the wander."),
+        field(&S::snrDb, "snrDb", "dB", -60.0, 60.0, "Signal-to-noise ratios in a frame with a rectangular window.")
+            .labelled("SNR"),
+        field(&S::durationWindows, "durationWindows", "windows", 0.5, 1e5, "Duration of a line.").labelled("Duration"),
+        field(&S::driftCellsPerWindow, "driftCellsPerWindow", "cells/window", -100.0, 100.0, "Steady drift of a line.")
+            .labelled("Drift"),
+        field(&S::wanderCells, "wanderCells", "cells", 0.0, 1000.0, "Standard deviation of a line's wander.")
+            .labelled("Wander"),
+        field(&S::wanderWindows, "wanderWindows", "windows", 0.01, 1e5, "Correlation time of the wander.")
+            .labelled("Time of the wander"),
         field(&S::fading, "fading", fadingNames, "Whether the amplitude fades."),
-        field(&S::fadingWindows, "fadingWindows", "windows", 0.01, 1e5, "Correlation time of the fading."),
+        field(&S::fadingWindows, "fadingWindows", "windows", 0.01, 1e5, "Correlation time of the fading.")
+            .labelled("Time of the fading"),
         field(&S::fluctuation, "fluctuation", fluctuationNames,
               "Fluctuation of a line's power about its mean: one power for the whole line (Swerling 1 and 3), or one "
               "for each window (2 and 4)."),

@@ -67,13 +67,14 @@ const std::vector<Field<SweepExperiment>> &SweepExperiment::fields()
     using S = SweepExperiment;
     static const std::vector<Field<S>> table = [] {
         std::vector<Field<S>> all{
-            field(&S::iq, "iq", "Treat two channels as I and Q."),
+            field(&S::iq, "iq", "Treat two channels as I and Q.").labelled("I and Q"),
             field(&S::seed, "seed", "", 0.0, 2147483647.0, "Seed of all random numbers."),
             field(&S::trials, "trials", "", 1.0, 1e6, "Number of lines on which every value is tried."),
         };
         all.insert(all.end(), lineProperties().begin(), lineProperties().end());
         all.push_back(field(&S::marginSeconds, "marginSeconds", "s", 0.0, 1e6,
-                            "Noise before and after a line, in which false alarms are counted."));
+                            "Noise before and after a line, in which false alarms are counted.")
+                          .labelled("Noise around"));
         all.push_back(field(&S::sampleRateHz, "sampleRateHz", "Hz", 1e-3, 1e9, "Sample rate of simulated noise."));
         return all;
     }();
