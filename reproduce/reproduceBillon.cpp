@@ -1,7 +1,7 @@
 #include "reproduce/reproduceBillon.h"
 
 #include "base/logmath.h"
-#include "evaluate/experiments/PdCurve.h"
+#include "evaluate/experiments/campaignCurve.h"
 #include "evaluate/experiments/lineRuns.h"
 #include "evaluate/experiments/peers.h"
 #include "evaluate/theory/theory.h"
@@ -119,13 +119,13 @@ namespace {
     }
 
     /// Pd of every detector (outer) and column (inner).
-    std::vector<std::vector<PdPoint>> measure(const Table &table, const ReproduceOptions &options,
+    std::vector<std::vector<CurvePoint>> measure(const Table &table, const ReproduceOptions &options,
                                               const RunContext &context)
     {
         LineExperiment experiment = experimentOf(table, options);
         std::vector<int> all(std::size_t(experiment.runs));
         std::iota(all.begin(), all.end(), 0);
-        std::vector<std::vector<PdPoint>> points(table.rows.size());
+        std::vector<std::vector<CurvePoint>> points(table.rows.size());
         const auto add = [&](const RunContext &part) {
             const auto outcomes = runExperiment(experiment, all, part);
             for (std::size_t s = 0; s < experiment.snrDb.size(); ++s)
@@ -151,7 +151,7 @@ namespace {
         return table.sweep == Sweep::Snr ? formatNumber(value) + " dB" : "σ_f·T_FT = " + formatNumber(value);
     }
 
-    Chart chartOf(const Table &table, const std::vector<std::vector<PdPoint>> &points)
+    Chart chartOf(const Table &table, const std::vector<std::vector<CurvePoint>> &points)
     {
         Chart chart{table.title,
                     table.sweep == Sweep::Snr ? "SNR (dB)" : "wander σ_f (1/T_FT)",

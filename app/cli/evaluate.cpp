@@ -9,8 +9,6 @@
 #include "base/oneLine.h"
 #include "evaluate/experiments/SweepTrials.h"
 #include "evaluate/experiments/campaignCharts.h"
-#include "evaluate/experiments/campaignCurve.h"
-#include "evaluate/experiments/sweepCurve.h"
 #include "exchange/CampaignFile.h"
 #include "exchange/writeChart.h"
 #include "signal/openRecording.h"

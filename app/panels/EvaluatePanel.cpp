@@ -22,17 +22,6 @@ namespace faintline {
 
 namespace {
 
-    Chart chartOf(const std::vector<CurvePoint> &points)
-    {
-        Chart chart{"Detection probability", "SNR (dB)", "Pd", false, false, {}};
-        for (const CurvePoint &point : points) {
-            if (chart.curves.empty() || chart.curves.back().name != point.detector)
-                chart.curves.push_back({point.detector, Curve::Kind::Measured, {}});
-            chart.curves.back().points.push_back({point.snrDb, point.pd, point.interval});
-        }
-        return chart;
-    }
-
     /// Why curves that seem to be the same are not; empty if there is nothing to explain. `measured`: without the curve
     /// of the operating point.
     QString explanationOf(const Chart &measured, bool hasOperatingPoint)
@@ -203,7 +192,10 @@ void EvaluatePanel::fillSnrs(const Experiments::Entry &entry)
 void EvaluatePanel::showPd(const Experiments::Entry &entry)
 {
     m_pd->setInvitation(entry.campaign ? tr("click it to see one of its trials") : QString());
-    m_pdChart = entry.imported ? chartOf(*entry.imported) : entry.campaign ? pdChart(*entry.campaign) : Chart();
+    m_pdChart = entry.imported
+                    ? Chart{"Detection probability", "SNR (dB)", "Pd", false, false, curvesOf(*entry.imported)}
+                : entry.campaign ? pdChart(*entry.campaign)
+                                 : Chart();
     showOperatingPoint(entry);
 }
 

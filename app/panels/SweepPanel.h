@@ -2,7 +2,7 @@
 
 #include "app/control/Experiments.h"
 #include "base/Error.h"
-#include "evaluate/experiments/sweepCurve.h"
+#include "evaluate/experiments/campaignCharts.h"
 
 #include <QWidget>
 

@@ -6,7 +6,6 @@
 #include "base/files/checksum.h"
 #include "base/json.h"
 #include "base/oneLine.h"
-#include "evaluate/experiments/sweepCurve.h"
 #include "exchange/csvText.h"
 
 #include <algorithm>

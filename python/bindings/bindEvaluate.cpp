@@ -4,7 +4,7 @@
 #include "bindings/arrays.h"
 #include "bindings/interruptible.h"
 #include "bindings/jsonFromPython.h"
-#include "evaluate/experiments/sweepCurve.h"
+#include "evaluate/experiments/campaignCurve.h"
 #include "exchange/CampaignFile.h"
 #include "exchange/Session.h"
 

@@ -12,7 +12,7 @@
 #include "base/files/AtomicFile.h"
 #include "base/files/fileName.h"
 #include "base/oneLine.h"
-#include "evaluate/experiments/PdCurve.h"
+#include "evaluate/experiments/campaignCurve.h"
 #include "exchange/Session.h"
 #include "noise/openFrames.h"
 #include "scene/SimulatedRecording.h"

@@ -4,7 +4,6 @@
 #include "base/files/AtomicFile.h"
 #include "evaluate/experiments/Campaign.h"
 #include "evaluate/experiments/InjectionTrials.h"
-#include "evaluate/experiments/PdCurve.h"
 #include "evaluate/experiments/campaignCurve.h"
 #include "evaluate/experiments/lineDetection.h"
 #include "evaluate/experiments/lineRuns.h"
@@ -193,7 +192,7 @@ private slots:
         outcome.noise = {{1.0f, 2.0f, 3.0f}};
         outcome.signal = {{{2.0f, 2.5f, 9.0f}}}; // exceeds 1, 2 and 3 of the blocks: 2 is not above 2
         const std::vector<RunOutcome> outcomes{outcome};
-        const PdPoint point = pdAgainstBlocks(experiment, outcomes, 0, 0);
+        const CurvePoint point = pdAgainstBlocks(experiment, outcomes, 0, 0);
         QVERIFY(std::abs(point.pd - 6.0 / 9.0) < 1e-15);
         QCOMPARE(point.trials, 3);
         QVERIFY(point.interval.contains(point.pd));
@@ -208,7 +207,7 @@ private slots:
         outcome.signal = {{{0.5f, 2.5f, 3.5f, 9.0f}}};
         const std::vector<RunOutcome> outcomes{outcome};
         QCOMPARE(blockThreshold(outcomes, 0, 0.25), 3.0); // one block of four exceeds it
-        const auto roc = rocCurve(experiment, outcomes, 0, 0);
+        const auto roc = rocPoints({experiment, {}, outcomes}, 0, 0);
         QCOMPARE(roc.size(), std::size_t(4));
         QCOMPARE(roc[0].threshold, 4.0);
         QCOMPARE(roc[0].falseAlarms, 0.0);

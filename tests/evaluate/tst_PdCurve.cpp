@@ -1,4 +1,4 @@
-#include "evaluate/experiments/PdCurve.h"
+#include "evaluate/experiments/campaignCurve.h"
 #include "support/test.h"
 
 #include "base/Random.h"
@@ -57,7 +57,7 @@ private slots:
                     for (const float signal : outcome.signal[d][s])
                         for (const float noise : outcome.noise[d])
                             wins += signal > noise ? 1.0 : 0.0;
-                const PdPoint point = pdAgainstBlocks(twoSnrs(), outcomes, d, s);
+                const CurvePoint point = pdAgainstBlocks(twoSnrs(), outcomes, d, s);
                 QVERIFY(std::abs(point.pd - wins / (3.0 * 49.0)) < 1e-12);
                 QCOMPARE(point.trials, std::int64_t(21));
                 QCOMPARE(point.snrDb, s == 0 ? -2.0 : 1.0);
@@ -78,7 +78,7 @@ private slots:
         for (const double pd : pds)
             squares += (pd - mean) * (pd - mean);
         const double error = std::sqrt(squares / 11.0 / 12.0);
-        const PdPoint point = pdAgainstBlocks(twoSnrs(), outcomes, 0, 0);
+        const CurvePoint point = pdAgainstBlocks(twoSnrs(), outcomes, 0, 0);
         QVERIFY(std::abs(point.pd - mean) < 1e-12);
         QVERIFY(std::abs(point.interval.low - (mean - 1.959963984540054 * error)) < 1e-9);
         QVERIFY(std::abs(point.interval.high - (mean + 1.959963984540054 * error)) < 1e-9);
@@ -89,13 +89,13 @@ private slots:
         auto outcomes = someOutcomes(6, 4);
         for (RunOutcome &outcome : outcomes)
             outcome.signal[0] = {std::vector<float>(4, 1e9f), std::vector<float>(4, -1e9f)};
-        const PdPoint all = pdAgainstBlocks(twoSnrs(), outcomes, 0, 0);
+        const CurvePoint all = pdAgainstBlocks(twoSnrs(), outcomes, 0, 0);
         QCOMPARE(all.pd, 1.0);
         QCOMPARE(all.interval, (Interval{1.0, 1.0}));
         QCOMPARE(pdAgainstBlocks(twoSnrs(), outcomes, 0, 1).interval, (Interval{0.0, 0.0}));
         // One run that misses half: the interval reaches beyond one but for the cut.
         outcomes[0].signal[0][0] = {1e9f, 1e9f, -1e9f, -1e9f};
-        const PdPoint nearly = pdAgainstBlocks(twoSnrs(), outcomes, 0, 0);
+        const CurvePoint nearly = pdAgainstBlocks(twoSnrs(), outcomes, 0, 0);
         QVERIFY(nearly.pd < 1.0 && nearly.interval.low < nearly.pd);
         QCOMPARE(nearly.interval.high, 1.0);
     }
@@ -123,7 +123,7 @@ private slots:
     void rocGoesThroughEveryMaximum()
     {
         const auto outcomes = someOutcomes(4, 9);
-        const std::vector<RocPoint> curve = rocCurve(twoSnrs(), outcomes, 0, 1);
+        const std::vector<RocPoint> curve = rocPoints({twoSnrs(), {}, outcomes}, 0, 1);
         QCOMPARE(curve.size(), std::size_t(8)); // 0 … 7, however often each
         for (std::size_t i = 0; i < curve.size(); ++i) {
             const double threshold = 7.0 - double(i);

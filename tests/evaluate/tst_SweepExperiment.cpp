@@ -2,7 +2,7 @@
 #include "evaluate/experiments/Campaign.h"
 #include "evaluate/experiments/SweepTrials.h"
 #include "evaluate/experiments/campaignCurve.h"
-#include "evaluate/experiments/sweepCurve.h"
+#include "evaluate/experiments/campaignCharts.h"
 #include "exchange/CampaignFile.h"
 #include "scene/SimulatedRecording.h"
 #include "support/files.h"

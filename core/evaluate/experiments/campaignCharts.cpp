@@ -1,10 +1,7 @@
 #include "evaluate/experiments/campaignCharts.h"
-#include "evaluate/experiments/campaignCurve.h"
 
 #include "base/Field.h"
 #include "base/logmath.h"
-#include "evaluate/experiments/PdCurve.h"
-#include "evaluate/experiments/sweepCurve.h"
 #include "evaluate/theory/theory.h"
 
 #include <algorithm>
@@ -118,27 +115,37 @@ namespace {
                + ", T = " + formatNumber(std::round(100.0 * threshold) / 100.0);
     }
 
-    /// Number of values above a threshold, and of all values, in the runs' lists.
-    template <class ListOf>
-    std::pair<std::int64_t, std::int64_t> countTrialsAbove(const Campaign &campaign, double threshold, ListOf listOf)
+    constexpr double unseen = 0.7; ///< events: median of the posterior after a count of zero, ln 2
+
+    /// Whether values increase by factors rather than by steps.
+    bool isLogarithmic(const std::vector<double> &values)
     {
-        std::int64_t above = 0;
-        std::int64_t all = 0;
-        for (const RunOutcome &outcome : campaign.outcomes)
-            for (const float value : listOf(outcome)) {
-                ++all;
-                above += double(value) > threshold ? 1 : 0;
-            }
-        return {above, all};
+        if (values.size() < 3 || std::any_of(values.begin(), values.end(), [](double value) { return value <= 0.0; }))
+            return false;
+        const auto [low, high] = std::minmax_element(values.begin(), values.end());
+        const double middle = values[values.size() / 2];
+        const double fromGeometric = std::abs(std::log(middle * middle / (*low * *high)));
+        const double fromArithmetic = std::abs(std::log(2.0 * middle / (*low + *high)));
+        return *high / *low > 5.0 && fromGeometric < fromArithmetic;
     }
 
-    Curve::Point pdPoint(const Campaign &campaign, std::size_t detector, std::size_t snr, double threshold, double x)
+    std::string labelOf(const SweepExperiment &experiment)
     {
-        const auto signals = [&](const RunOutcome &outcome) -> const std::vector<float> & {
-            return outcome.signal[detector][snr];
-        };
-        const auto [above, all] = countTrialsAbove(campaign, threshold, signals);
-        return {x, double(above) / double(all), wilsonInterval(above, all)};
+        const FieldInfo &field = parameterInfo(experiment.parameter);
+        return field.name + (field.unit.empty() ? "" : " (" + field.unit + ")");
+    }
+
+    /// The chart with its only curve, which needs no name.
+    Chart withCurve(Chart chart, std::vector<Curve::Point> points)
+    {
+        if (!points.empty())
+            chart.curves.push_back({{}, Curve::Kind::Measured, std::move(points)});
+        return chart;
+    }
+
+    double shownFalseAlarms(const SweepPoint &point)
+    {
+        return point.falseAlarms > 0 ? point.falseAlarmsPerHour : unseen / point.hours;
     }
 
 } // namespace
@@ -150,10 +157,8 @@ std::optional<Curve> pdAtOperatingPoint(const Campaign &campaign, const Analysis
         return {};
     Curve curve{nameAt(campaign, *detector, threshold), Curve::Kind::Theory, {}};
     const std::vector<double> snrs = snrsOf(campaign.experiment);
-    for (std::size_t s = 0; s < snrs.size(); ++s) {
-        const Curve::Point point = pdPoint(campaign, *detector, s, threshold, snrs[s]);
-        curve.points.push_back({point.x, point.y, {}});
-    }
+    for (std::size_t s = 0; s < snrs.size(); ++s)
+        curve.points.push_back({snrs[s], pdAbove(campaign, *detector, s, threshold).pd, {}});
     return curve;
 }
 
@@ -163,16 +168,29 @@ std::optional<Curve> operatingPoint(const Campaign &campaign, std::size_t snr, c
     const std::optional<std::size_t> detector = detectorLike(campaign, current);
     if (!detector)
         return {};
-    const auto [above, all] =
-        countTrialsAbove(campaign, threshold, [&](const RunOutcome &outcome) -> const std::vector<float> & {
-            return outcome.noise[*detector];
-        });
+    std::ptrdiff_t above = 0, all = 0;
+    for (const RunOutcome &outcome : campaign.outcomes) {
+        above += std::ranges::count_if(outcome.noise[*detector], [&](float d0) { return double(d0) > threshold; });
+        all += std::ssize(outcome.noise[*detector]);
+    }
     // None or all cannot be drawn on a logarithmic axis: half a block is added or subtracted.
     const double share = std::clamp(double(above), 0.5, double(all) - 0.5) / double(all);
     const bool isInBlocks = std::holds_alternative<LineExperiment>(campaign.experiment);
+    const CurvePoint pd = pdAbove(campaign, *detector, snr, threshold);
     return Curve{nameAt(campaign, *detector, threshold),
                  Curve::Kind::Paper,
-                 {pdPoint(campaign, *detector, snr, threshold, isInBlocks ? -std::log1p(-share) : share)}};
+                 {{isInBlocks ? -std::log1p(-share) : share, pd.pd, pd.interval}}};
+}
+
+std::vector<Curve> curvesOf(const std::vector<CurvePoint> &points)
+{
+    std::vector<Curve> curves;
+    for (const CurvePoint &point : points) {
+        if (curves.empty() || curves.back().name != point.detector)
+            curves.push_back({point.detector, Curve::Kind::Measured, {}});
+        curves.back().points.push_back({point.snrDb, point.pd, point.interval});
+    }
+    return curves;
 }
 
 Chart pdChart(const Campaign &campaign)
@@ -186,11 +204,7 @@ Chart pdChart(const Campaign &campaign)
         chart.xLabel = "SNR (dB), at " + formatNumber(injection->falseAlarmsPerHour)
                        + (injection->falseAlarmsPerHour == 1.0 ? " false alarm/h" : " false alarms/h");
     }
-    for (const CurvePoint &point : pdCurve(campaign)) {
-        if (chart.curves.empty() || chart.curves.back().name != point.detector)
-            chart.curves.push_back({point.detector, Curve::Kind::Measured, {}});
-        chart.curves.back().points.push_back({point.snrDb, point.pd, point.interval});
-    }
+    chart.curves = curvesOf(pdCurve(campaign));
     if (lines && !campaign.outcomes.empty())
         for (const DetectorUnderTest &detectorUnderTest : lines->detectors)
             if (hasTheory(*lines, detectorUnderTest))
@@ -215,6 +229,65 @@ Chart rocChart(const Campaign &campaign, std::size_t snr)
     if (lines)
         addTheory(chart, *lines, snr);
     return chart;
+}
+
+Chart sweepChart(const Campaign &campaign, SweepMeasure measure)
+{
+    const auto &experiment = std::get<SweepExperiment>(campaign.experiment);
+    Chart chart{"Detection probability", labelOf(experiment), "Pd", isLogarithmic(experiment.values), false, {}};
+    if (measure == SweepMeasure::FalseAlarms) {
+        chart.title = "False alarms";
+        chart.yLabel = "false alarms per hour";
+        chart.isLogarithmicY = true;
+    } else if (measure == SweepMeasure::Latency) {
+        chart.title = "Latency";
+        chart.yLabel = "start to detection (s)";
+    }
+    std::vector<Curve::Point> points;
+    for (const SweepPoint &point : sweepCurve(campaign)) {
+        if (measure == SweepMeasure::Pd)
+            points.push_back({point.value, point.pd, point.pdInterval});
+        else if (measure == SweepMeasure::FalseAlarms)
+            points.push_back(
+                {point.value,
+                 shownFalseAlarms(point),
+                 {std::max(point.falseAlarmInterval.low, 0.1 / point.hours), point.falseAlarmInterval.high}});
+        else if (point.detections > 0)
+            points.push_back({point.value, point.latencySeconds, point.latencyInterval});
+    }
+    return withCurve(std::move(chart), std::move(points));
+}
+
+Chart tradeOffChart(const Campaign &campaign)
+{
+    const std::string &parameter = std::get<SweepExperiment>(campaign.experiment).parameter;
+    std::vector<Curve::Point> points;
+    for (const SweepPoint &point : sweepCurve(campaign)) {
+        const Curve::Point shown{shownFalseAlarms(point), point.pd, point.pdInterval, formatNumber(point.value)};
+        const auto same = std::ranges::find_if(
+            points, [&](const Curve::Point &other) { return other.x == shown.x && other.y == shown.y; });
+        if (same == points.end()) {
+            points.push_back(shown);
+            continue;
+        }
+        same->label += ", " + shown.label; // coincident points share a label
+        points.push_back({shown.x, shown.y, shown.interval});
+    }
+    return withCurve({"Trade-off of " + parameter, "false alarms per hour", "Pd", true, false, {}}, std::move(points));
+}
+
+Chart costChart(const SweepExperiment &experiment, const std::vector<double> &seconds)
+{
+    std::vector<Curve::Point> points;
+    for (std::size_t i = 0; i < std::min(seconds.size(), experiment.values.size()); ++i)
+        points.push_back({experiment.values[i], seconds[i], {}});
+    return withCurve({"Cost",
+                      labelOf(experiment),
+                      "processor time per hour of recording (s)",
+                      isLogarithmic(experiment.values),
+                      false,
+                      {}},
+                     std::move(points));
 }
 
 } // namespace faintline

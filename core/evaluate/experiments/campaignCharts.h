@@ -1,12 +1,15 @@
 #pragma once
 
-#include "evaluate/experiments/Campaign.h"
 #include "evaluate/experiments/Chart.h"
+#include "evaluate/experiments/campaignCurve.h"
 
 #include <cstddef>
 #include <optional>
 
 namespace faintline {
+
+/// Measured curves of Pd against SNR, one for each name.
+std::vector<Curve> curvesOf(const std::vector<CurvePoint> &points);
 
 /// Pd against SNR, one measured curve per detector with its 95 % intervals.
 ///
@@ -18,7 +21,7 @@ namespace faintline {
 ///
 /// with n looks, one per window, and as many independent cells as windows × resolution cells.
 ///
-/// For a sweep: Pd against its parameter (sweepCurve.h). Source: Billon 2005, section 5. Curves are in the order of the
+/// For a sweep: Pd against its parameter (`sweepChart`). Source: Billon 2005, section 5. Curves are in the order of the
 /// detectors, so that curve i < detectors is detector i.
 Chart pdChart(const Campaign &campaign);
 
@@ -32,5 +35,17 @@ Chart rocChart(const Campaign &campaign, std::size_t snr);
 std::optional<Curve> pdAtOperatingPoint(const Campaign &campaign, const AnalysisSettings &current, double threshold);
 std::optional<Curve> operatingPoint(const Campaign &campaign, std::size_t snr, const AnalysisSettings &current,
                                     double threshold);
+
+enum class SweepMeasure { Pd, FalseAlarms, Latency };
+
+/// One measure against the parameter, with its 95 % intervals. Where no false alarm was counted the point is drawn at
+/// 0.7 of one, the median of the remaining possibilities.
+Chart sweepChart(const Campaign &campaign, SweepMeasure measure);
+
+/// Pd against false alarms per hour, one point per value, in the order of the values.
+Chart tradeOffChart(const Campaign &campaign);
+
+/// Processor seconds per hour of recording against the parameter.
+Chart costChart(const SweepExperiment &experiment, const std::vector<double> &seconds);
 
 } // namespace faintline

@@ -1,75 +1,115 @@
 #include "evaluate/experiments/campaignCurve.h"
 
-#include "evaluate/experiments/sweepCurve.h"
-
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 namespace faintline {
 
 namespace {
 
-    std::vector<CurvePoint> curveOfSweep(const Campaign &campaign, const SweepExperiment &sweep)
+    constexpr std::size_t runsForScatter = 5;
+
+    /// The values listOf(outcome) of all runs.
+    template <class ListOf>
+    std::vector<float> pooled(std::span<const RunOutcome> outcomes, ListOf listOf)
     {
-        std::vector<CurvePoint> curve;
-        for (const SweepPoint &point : sweepCurve(campaign))
-            curve.push_back({sweep.parameter + " = " + formatNumber(point.value), sweep.snrDb, point.pd,
-                             point.pdInterval, point.trials, point.threshold});
-        return curve;
+        std::vector<float> values;
+        for (const RunOutcome &outcome : outcomes)
+            values.insert(values.end(), listOf(outcome).begin(), listOf(outcome).end());
+        return values;
     }
 
-    CurvePoint injectionPoint(const InjectionExperiment &experiment, const Campaign &campaign, std::size_t detector,
-                              std::size_t snr)
+    std::vector<float> pooledNoise(std::span<const RunOutcome> outcomes, std::size_t detector)
     {
-        const double threshold = campaign.thresholds[detector];
-        CurvePoint point{experiment.detectors[detector].name, experiment.snrDb[snr], 0.0, {}, 0, threshold};
-        std::int64_t detections = 0;
-        for (const RunOutcome &outcome : campaign.outcomes) {
-            ++point.trials;
-            detections += double(outcome.signal[detector][snr].front()) > threshold ? 1 : 0;
-        }
-        point.pd = point.trials > 0 ? double(detections) / double(point.trials) : 0.0;
-        point.interval = wilsonInterval(detections, point.trials);
-        return point;
+        auto maxima = pooled(
+            outcomes, [&](const RunOutcome &one) -> const auto & { return one.noise[detector]; });
+        std::ranges::sort(maxima);
+        return maxima;
     }
 
-    /// Each path without the line serves as threshold, the highest first.
-    std::vector<RocPoint> injectionRoc(const Campaign &campaign, std::size_t detector, std::size_t snr)
+    std::vector<float> pooledSignals(std::span<const RunOutcome> outcomes, std::size_t detector, std::size_t snr)
     {
-        std::vector<float> noise;
-        std::vector<float> signal;
-        for (const RunOutcome &outcome : campaign.outcomes) {
-            noise.push_back(outcome.noise[detector].front());
-            signal.push_back(outcome.signal[detector][snr].front());
-        }
-        std::ranges::sort(noise);
-        std::ranges::sort(signal);
-        const auto above = [](const std::vector<float> &values, float threshold) {
-            return values.end() - std::ranges::upper_bound(values, threshold);
-        };
-        const auto trials = std::ssize(noise);
-        std::vector<float> thresholds = noise;
-        thresholds.erase(std::unique(thresholds.begin(), thresholds.end()), thresholds.end());
-        std::ranges::reverse(thresholds);
-        std::vector<RocPoint> points;
-        for (const float threshold : thresholds) {
-            const auto detections = above(signal, threshold);
-            points.push_back({double(threshold), double(above(noise, threshold)) / double(trials),
-                              double(detections) / double(trials), wilsonInterval(detections, trials)});
-        }
-        return points;
+        return pooled(
+            outcomes, [&](const RunOutcome &one) -> const auto & { return one.signal[detector][snr]; });
+    }
+
+    std::int64_t countAbove(const std::vector<float> &ascending, float threshold)
+    {
+        return ascending.end() - std::ranges::upper_bound(ascending, threshold);
     }
 
 } // namespace
 
-std::vector<RocPoint> rocPoints(const Campaign &campaign, std::size_t detector, std::size_t snr)
+std::vector<CurvePoint> pdCurve(const Campaign &campaign)
 {
-    if (campaign.outcomes.empty() || std::holds_alternative<SweepExperiment>(campaign.experiment))
-        return {};
-    if (const auto *lines = std::get_if<LineExperiment>(&campaign.experiment))
-        return rocCurve(*lines, campaign.outcomes, detector, snr);
-    return injectionRoc(campaign, detector, snr);
+    std::vector<CurvePoint> curve;
+    if (campaign.outcomes.empty())
+        return curve;
+    if (const auto *sweep = std::get_if<SweepExperiment>(&campaign.experiment)) {
+        for (const SweepPoint &point : sweepCurve(campaign))
+            curve.push_back({sweep->parameter + " = " + formatNumber(point.value), sweep->snrDb, point.pd,
+                             point.pdInterval, point.trials, point.threshold});
+        return curve;
+    }
+    const auto *lines = std::get_if<LineExperiment>(&campaign.experiment);
+    const std::vector<DetectorUnderTest> detectors = detectorsOf(campaign.experiment);
+    for (std::size_t d = 0; d < detectors.size(); ++d) {
+        const double threshold = shownThreshold(campaign, d);
+        for (std::size_t s = 0; s < snrsOf(campaign.experiment).size(); ++s) {
+            curve.push_back(lines ? pdAgainstBlocks(*lines, campaign.outcomes, d, s)
+                                  : pdAbove(campaign, d, s, threshold));
+            curve.back().detector = detectors[d].name;
+            curve.back().threshold = threshold;
+        }
+    }
+    return curve;
+}
+
+CurvePoint pdAgainstBlocks(const LineExperiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector,
+                           std::size_t snr)
+{
+    CurvePoint point;
+    point.snrDb = experiment.snrDb[snr];
+    double sum = 0.0;
+    double sumOfSquares = 0.0;
+    for (const RunOutcome &outcome : outcomes) {
+        const std::vector<float> &signals = outcome.signal[detector][snr];
+        const std::vector<float> &blocks = outcome.noise[detector];
+        std::int64_t wins = 0;
+        for (const float d1 : signals)
+            wins += std::count_if(blocks.begin(), blocks.end(), [d1](float d0) { return d1 > d0; });
+        const double pd = double(wins) / double(signals.size() * blocks.size());
+        sum += pd;
+        sumOfSquares += pd * pd;
+        point.trials += std::ssize(signals);
+    }
+    const auto runs = double(outcomes.size());
+    point.pd = sum / runs;
+    if (outcomes.size() < runsForScatter) {
+        point.interval = wilsonInterval(std::llround(point.pd * double(point.trials)), point.trials);
+        return point;
+    }
+    const double variance = std::max(0.0, sumOfSquares / runs - point.pd * point.pd) / (runs - 1.0);
+    point.interval = normalInterval(point.pd, std::sqrt(variance));
+    point.interval = {std::max(0.0, point.interval.low), std::min(1.0, point.interval.high)};
+    return point;
+}
+
+CurvePoint pdAbove(const Campaign &campaign, std::size_t detector, std::size_t snr, double threshold)
+{
+    const std::vector<float> signals = pooledSignals(campaign.outcomes, detector, snr);
+    const auto wins = std::ranges::count_if(signals, [&](float value) { return double(value) > threshold; });
+    const std::int64_t trials = std::ssize(signals);
+    const double snrDb = snrsOf(campaign.experiment)[snr];
+    return {{}, snrDb, double(wins) / double(trials), wilsonInterval(wins, trials), trials, threshold};
+}
+
+double blockThreshold(std::span<const RunOutcome> outcomes, std::size_t detector, double probability)
+{
+    const std::vector<float> maxima = pooledNoise(outcomes, detector);
+    const double position = (1.0 - probability) * double(maxima.size());
+    const auto index = std::clamp<std::ptrdiff_t>(std::ptrdiff_t(std::ceil(position)) - 1, 0, std::ssize(maxima) - 1);
+    return double(maxima[std::size_t(index)]);
 }
 
 double shownThreshold(const Campaign &campaign, std::size_t detector)
@@ -81,30 +121,65 @@ double shownThreshold(const Campaign &campaign, std::size_t detector)
                                        : campaign.thresholds[detector];
 }
 
-std::vector<CurvePoint> pdCurve(const Campaign &campaign)
+std::vector<RocPoint> rocPoints(const Campaign &campaign, std::size_t detector, std::size_t snr)
 {
-    std::vector<CurvePoint> curve;
-    if (campaign.outcomes.empty())
-        return curve;
-    if (const auto *sweep = std::get_if<SweepExperiment>(&campaign.experiment))
-        return curveOfSweep(campaign, *sweep);
-    std::visit(
-        [&]<class E>(const E &experiment) {
-            if constexpr (!std::is_same_v<E, SweepExperiment>)
-                for (std::size_t d = 0; d < experiment.detectors.size(); ++d) {
-                    const double threshold = shownThreshold(campaign, d);
-                    for (std::size_t s = 0; s < experiment.snrDb.size(); ++s) {
-                        if constexpr (std::is_same_v<E, LineExperiment>) {
-                            const PdPoint point = pdAgainstBlocks(experiment, campaign.outcomes, d, s);
-                            curve.push_back({experiment.detectors[d].name, point.snrDb, point.pd, point.interval,
-                                             point.trials, threshold});
-                        } else {
-                            curve.push_back(injectionPoint(experiment, campaign, d, s));
-                        }
-                    }
-                }
-        },
-        campaign.experiment);
+    if (campaign.outcomes.empty() || std::holds_alternative<SweepExperiment>(campaign.experiment))
+        return {};
+    const bool isInBlocks = std::holds_alternative<LineExperiment>(campaign.experiment);
+    const std::vector<float> noise = pooledNoise(campaign.outcomes, detector);
+    std::vector<float> signals = pooledSignals(campaign.outcomes, detector, snr);
+    std::ranges::sort(signals);
+    std::vector<float> thresholds = noise;
+    thresholds.erase(std::unique(thresholds.begin(), thresholds.end()), thresholds.end());
+    std::ranges::reverse(thresholds);
+    std::vector<RocPoint> curve;
+    for (const float threshold : thresholds) {
+        const double share = double(countAbove(noise, threshold)) / double(noise.size());
+        const std::int64_t wins = countAbove(signals, threshold);
+        curve.push_back({double(threshold), isInBlocks ? -std::log1p(-share) : share,
+                         double(wins) / double(signals.size()), wilsonInterval(wins, std::ssize(signals))});
+    }
+    return curve;
+}
+
+std::vector<SweepPoint> sweepCurve(const Campaign &campaign)
+{
+    const auto &experiment = std::get<SweepExperiment>(campaign.experiment);
+    std::vector<SweepPoint> curve(experiment.values.size());
+    std::vector<double> sum(curve.size()), sumOfSquares(curve.size());
+    for (const RunOutcome &outcome : campaign.outcomes) {
+        const auto i = std::size_t(experiment.valueOf(outcome.run));
+        SweepPoint &point = curve[i];
+        const auto latency = double(outcome.signal[0][0][0]);
+        ++point.trials;
+        point.falseAlarms += std::llround(outcome.noise[0][0]);
+        point.hours += double(outcome.noise[0][1]) / 3600.0;
+        if (!(latency >= 0.0))
+            continue;
+        ++point.detections;
+        sum[i] += latency;
+        sumOfSquares[i] += latency * latency;
+    }
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+        SweepPoint &point = curve[i];
+        if (point.trials == 0)
+            continue;
+        point.value = experiment.values[i];
+        point.threshold = i < campaign.thresholds.size() ? campaign.thresholds[i] : 0.0;
+        point.pd = double(point.detections) / double(point.trials);
+        point.pdInterval = wilsonInterval(point.detections, point.trials);
+        const Interval counts = poissonInterval(point.falseAlarms);
+        point.falseAlarmsPerHour = double(point.falseAlarms) / point.hours;
+        point.falseAlarmInterval = {counts.low / point.hours, counts.high / point.hours};
+        if (point.detections == 0)
+            continue;
+        const auto n = double(point.detections);
+        point.latencySeconds = sum[i] / n;
+        const double squares = std::max(0.0, sumOfSquares[i] - n * point.latencySeconds * point.latencySeconds);
+        const double variance = n > 1.0 ? squares / (n - 1.0) : 0.0;
+        point.latencyInterval = normalInterval(point.latencySeconds, std::sqrt(variance / n));
+    }
+    std::erase_if(curve, [](const SweepPoint &point) { return point.trials == 0; });
     return curve;
 }
 
