@@ -1,8 +1,8 @@
 #include "reproduce/reproduceBillon.h"
 
 #include "base/logmath.h"
+#include "evaluate/experiments/LineTrials.h"
 #include "evaluate/experiments/campaignCurve.h"
-#include "evaluate/experiments/lineRuns.h"
 #include "evaluate/experiments/peers.h"
 #include "evaluate/theory/theory.h"
 
@@ -120,14 +120,14 @@ namespace {
 
     /// Pd of every detector (outer) and column (inner).
     std::vector<std::vector<CurvePoint>> measure(const Table &table, const ReproduceOptions &options,
-                                              const RunContext &context)
+                                                 const RunContext &context)
     {
         LineExperiment experiment = experimentOf(table, options);
         std::vector<int> all(std::size_t(experiment.runs));
         std::iota(all.begin(), all.end(), 0);
         std::vector<std::vector<CurvePoint>> points(table.rows.size());
         const auto add = [&](const RunContext &part) {
-            const auto outcomes = runExperiment(experiment, all, part);
+            const auto outcomes = LineTrials(experiment, part.part(0.0, 0.1)).run(all, part.part(0.1, 1.0));
             for (std::size_t s = 0; s < experiment.snrDb.size(); ++s)
                 for (std::size_t d = 0; d < points.size(); ++d)
                     points[d].push_back(pdAgainstBlocks(experiment, outcomes, d, s));
@@ -236,7 +236,7 @@ namespace {
         const LineTrial noise = remakeTrial(experiment, -200.0, 0, 0);
         const Grid &grid = trial.frames->grid();
         const MarkovModel model = makeModel(experiment.detectors.front().settings.model, grid);
-        const ResetRule rule = calibratedResets(experiment, context).front();
+        const ResetRule rule = LineTrials(experiment, context).resets().front();
 
         Curve along{"on the line", Curve::Kind::Measured, {}};
         Curve elsewhere{"largest of the block without the line", Curve::Kind::Measured, {}};

@@ -1,6 +1,5 @@
 #include "app/control/Experiments.h"
 
-#include "evaluate/experiments/SweepTrials.h"
 #include "widgets/base/labelText.h"
 
 #include <algorithm>
@@ -148,32 +147,17 @@ void Experiments::startCampaign(const Entry &entry)
                 this, [this, id, outcome] { addOutcome(id, outcome); }, Qt::QueuedConnection);
         };
         const RecordingPointer noise = recording ? recording : openRecordingOf(campaign.experiment);
-        if (const auto *injection = std::get_if<InjectionExperiment>(&campaign.experiment)) {
-            const auto trials = std::make_shared<const InjectionTrials>(*injection, noise, context.part(0.0, 0.3));
-            QMetaObject::invokeMethod(
-                this,
-                [this, id, trials] {
-                    if (Entry *prepared = find(id)) {
-                        prepared->trials = trials;
-                        prepared->campaign->thresholds = trials->thresholds();
-                    }
-                },
-                Qt::QueuedConnection);
-            trials->run(openRuns(campaign), context.part(0.3, 1.0), sink);
-        } else if (const auto *sweep = std::get_if<SweepExperiment>(&campaign.experiment)) {
-            const SweepTrials trials(*sweep, noise, context.part(0.0, 0.3));
-            QMetaObject::invokeMethod(
-                this,
-                [this, id, thresholds = trials.thresholds()] {
-                    if (Entry *prepared = find(id))
-                        prepared->campaign->thresholds = thresholds;
-                },
-                Qt::QueuedConnection);
-            trials.run(openRuns(campaign), context.part(0.3, 1.0), sink);
-        } else {
-            Campaign whole = campaign;
-            carryOut(whole, openRuns(whole), context, sink);
-        }
+        const std::shared_ptr<const Trials> trials = prepareTrials(campaign.experiment, noise, context.part(0.0, 0.3));
+        QMetaObject::invokeMethod(
+            this,
+            [this, id, trials] {
+                if (Entry *prepared = find(id)) {
+                    prepared->trials = trials;
+                    prepared->campaign->thresholds = trials->thresholds();
+                }
+            },
+            Qt::QueuedConnection);
+        trials->run(openRuns(campaign), context.part(0.3, 1.0), sink);
         return [] {};
     });
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "app/base/JobRunner.h"
-#include "evaluate/experiments/InjectionTrials.h"
 #include "evaluate/experiments/campaignCurve.h"
 #include "reproduce/reproduce.h"
 
@@ -34,8 +33,8 @@ public:
         QString doing;   ///< while it runs
         QString failure; ///< why it failed
         std::optional<Campaign> campaign;
-        RecordingPointer recording;                    ///< into which lines are injected
-        std::shared_ptr<const InjectionTrials> trials; ///< for an injection, once prepared
+        RecordingPointer recording;           ///< into which lines are injected
+        std::shared_ptr<const Trials> trials; ///< once prepared
         std::optional<Reproducible> reproducible;
         std::shared_ptr<const Reproduction> reproduction; ///< once done
         std::optional<std::vector<CurvePoint>> imported;  ///< points of a curve file, without trials

@@ -4,9 +4,9 @@
 #include "base/files/AtomicFile.h"
 #include "evaluate/experiments/Campaign.h"
 #include "evaluate/experiments/InjectionTrials.h"
+#include "evaluate/experiments/LineTrials.h"
 #include "evaluate/experiments/campaignCurve.h"
 #include "evaluate/experiments/lineDetection.h"
-#include "evaluate/experiments/lineRuns.h"
 #include "evaluate/experiments/showTrial.h"
 #include "exchange/CampaignFile.h"
 #include "scene/SimulatedRecording.h"
@@ -66,9 +66,9 @@ private slots:
     void threadsAndOrderChangeNothing()
     {
         const LineExperiment experiment = smallExperiment();
-        const auto one = runExperiment(experiment, {0, 1, 2, 3}, onThreads(1));
-        QVERIFY(runExperiment(experiment, {0, 1, 2, 3}, onThreads(3)) == one);
-        const auto other = runExperiment(experiment, {3, 1}, onThreads(2));
+        const auto one = LineTrials(experiment).run({0, 1, 2, 3}, onThreads(1));
+        QVERIFY(LineTrials(experiment).run({0, 1, 2, 3}, onThreads(3)) == one);
+        const auto other = LineTrials(experiment).run({3, 1}, onThreads(2));
         QVERIFY(other[0] == one[3] && other[1] == one[1]);
         QVERIFY(!(one[0].signal == one[1].signal));
     }
@@ -171,7 +171,7 @@ private slots:
         LineExperiment experiment = smallExperiment();
         experiment.wanderCells = 0.0;
         experiment.detectors = {detectorUnderTest("energy", EnergySettings{})};
-        const RunOutcome outcome = runExperiment(experiment, {2}).front();
+        const RunOutcome outcome = LineTrials(experiment).run({2}).front();
         for (const int signal : {0, 3, experiment.signalsPerRun() - 1}) {
             const LineTrial trial = remakeTrial(experiment, experiment.snrDb[1], 2, signal);
             std::vector<float> y(std::size_t(trial.frames->grid().size()));
@@ -288,9 +288,9 @@ private slots:
         experiment.snrDb = {10.0};
         experiment.detectors = {detectorUnderTest("3 of 4", PofNSettings{3, 4})};
         experiment.detectors.front().isWhole = true;
-        const FieldTrial trial = remakeField(experiment, 10.0, 0, 0);
+        const MadeTrial trial = remakeField(experiment, 10.0, 0, 0);
         const auto analysis = analyse(trial.recording, wholeSettings(experiment, 0));
-        const LineDetection found = lineDetection(*analysis, trial.line);
+        const LineDetection found = lineDetection(*analysis, trial.truth);
         double nearest = std::numeric_limits<double>::infinity();
         for (const Event &event : events(*analysis))
             nearest = std::min(nearest, std::abs(event.statistic - analysis->threshold - found.margin));

@@ -1,8 +1,8 @@
 #include "evaluate/experiments/LineExperiment.h"
 #include "support/test.h"
 
+#include "evaluate/experiments/LineTrials.h"
 #include "evaluate/experiments/NoisyField.h"
-#include "evaluate/experiments/lineRuns.h"
 #include "evaluate/experiments/peers.h"
 #include "support/errors.h"
 
@@ -28,10 +28,9 @@ LineExperiment experiment(std::vector<DetectorUnderTest> detectors)
 /// Power of each line in each of its frames, where it is strongest, over that of a constant line.
 std::vector<std::vector<double>> relativePowers(LineExperiment made, Fluctuation fluctuation)
 {
-    FieldTransform transform(made);
-    const NoisyField constant = makeField(made, 1, transform);
+    const NoisyField constant = makeField(made, 1);
     made.fluctuation = fluctuation;
-    const NoisyField field = makeField(made, 1, transform);
+    const NoisyField field = makeField(made, 1);
     std::vector<std::vector<double>> powers;
     for (const Place &place : constant.places) {
         std::vector<double> &line = powers.emplace_back();
@@ -69,11 +68,10 @@ private slots:
     void outcomesAreTheLargestOfTheirCells()
     {
         const LineExperiment made = experiment({peer("energy", 10.0)});
-        const std::vector<RunOutcome> outcomes = runExperiment(made, {7, 2});
+        const std::vector<RunOutcome> outcomes = LineTrials(made).run({7, 2});
         QCOMPARE(outcomes.size(), std::size_t(2));
-        FieldTransform transform(made);
         for (const RunOutcome &outcome : outcomes) {
-            const NoisyField field = makeField(made, outcome.run, transform);
+            const NoisyField field = makeField(made, outcome.run);
             std::vector<float> noise(10, 0.0f);
             for (std::size_t i = 0; i < 120 * 1000; ++i) {
                 float &largest = noise[i / 1000 / 60 * 5 + i % 1000 / 200];
@@ -101,9 +99,8 @@ private slots:
     {
         LineExperiment made = experiment({peer("integrator", 1.0)});
         made.snrDb = {0.0};
-        const RunOutcome outcome = runExperiment(made, {3}).front();
-        FieldTransform transform(made);
-        const NoisyField field = makeField(made, 3, transform);
+        const RunOutcome outcome = LineTrials(made).run({3}).front();
+        const NoisyField field = makeField(made, 3);
         std::vector<float> expected(10, 0.0f);
         for (std::size_t frame = 1; frame < 120; ++frame)
             for (std::size_t bin = 0; bin < 1000; ++bin) {
@@ -156,7 +153,7 @@ private slots:
         context.threads = 3;
         std::vector<RunOutcome> seen;
         const auto outcomes =
-            runExperiment(made, {4, 0, 9, 1}, context, [&](const RunOutcome &outcome) { seen.push_back(outcome); });
+            LineTrials(made).run({4, 0, 9, 1}, context, [&](const RunOutcome &outcome) { seen.push_back(outcome); });
         QCOMPARE(seen.size(), std::size_t(4));
         for (const RunOutcome &outcome : outcomes)
             QCOMPARE(std::count(seen.begin(), seen.end(), outcome), std::ptrdiff_t(1));
@@ -165,7 +162,8 @@ private slots:
     void noRunsNoOutcomes()
     {
         int seen = 0;
-        QVERIFY(runExperiment(experiment({peer("energy", 10.0)}), {}, {}, [&](const RunOutcome &) { ++seen; }).empty());
+        QVERIFY(
+            LineTrials(experiment({peer("energy", 10.0)})).run({}, {}, [&](const RunOutcome &) { ++seen; }).empty());
         QCOMPARE(seen, 0);
     }
 
@@ -174,16 +172,16 @@ private slots:
         LineExperiment made = experiment({peer("SMD stable", 10.0), peer("energy", 10.0), peer("SMD 5 slopes", 10.0)});
         made.frames = 600;
         made.binsPerCell = 1;
-        const std::vector<ResetRule> rules = calibratedResets(made);
+        const std::vector<ResetRule> rules = LineTrials(made).resets();
         QCOMPARE(rules.size(), std::size_t(3));
         QCOMPARE(rules[1].lnK, 0.0);
         // Of three equal chances each step costs ln 3 nat, which K gives back where there is a choice of slopes.
         QVERIFY(rules[0].lnK < 0.0 && rules[2].lnK > 0.0);
         LineExperiment other = made;
         other.detectors = {peer("SMD stable", 10.0)};
-        QCOMPARE(calibratedResets(other).front().lnK, rules[0].lnK); // whatever else is tried
+        QCOMPARE(LineTrials(other).resets().front().lnK, rules[0].lnK); // whatever else is tried
         other.seed = 2;
-        const double again = calibratedResets(other).front().lnK;
+        const double again = LineTrials(other).resets().front().lnK;
         QVERIFY(again != rules[0].lnK && std::abs(again - rules[0].lnK) < 0.05);
     }
 
@@ -193,10 +191,10 @@ private slots:
         LineExperiment made = experiment({peer("SMD stable", 10.0), peer("SMD 5 slopes", 10.0)});
         made.frames = 1000;
         made.binsPerCell = 1;
-        const std::vector<ResetRule> expected = calibratedResets(made);
+        const std::vector<ResetRule> expected = LineTrials(made).resets();
         for (const int frames : {60, 130, 300, 301}) {
             made.frames = frames;
-            const std::vector<ResetRule> rules = calibratedResets(made);
+            const std::vector<ResetRule> rules = LineTrials(made).resets();
             for (std::size_t i = 0; i < 2; ++i)
                 QVERIFY2(
                     std::abs(rules[i].lnK - expected[i].lnK) < 0.1,
@@ -215,7 +213,7 @@ private slots:
             source.request_stop();
         };
         QVERIFY_THROWS_EXCEPTION(
-            Cancelled, runExperiment(experiment({peer("energy", 10.0)}), {0, 1, 2, 3}, context, stopAtTheFirst));
+            Cancelled, LineTrials(experiment({peer("energy", 10.0)})).run({0, 1, 2, 3}, context, stopAtTheFirst));
         QCOMPARE(seen, 1);
     }
 

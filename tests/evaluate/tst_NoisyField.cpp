@@ -52,8 +52,7 @@ private slots:
         const int hop = samplesPerWindow / stepsPerWindow;
         std::vector<float> samples(std::size_t(2 * (2 * hop + samplesPerWindow)));
         Random(5, 0).normals(samples, 1.0f);
-        std::vector<std::complex<float>> field;
-        FieldTransform(made).run(samples, field);
+        const std::vector<std::complex<float>> field = fieldTransform(made, samples);
         const int bins = samplesPerWindow * binsPerCell;
         QCOMPARE(field.size(), std::size_t(3 * bins));
 
@@ -83,9 +82,8 @@ private slots:
         LineExperiment made = experiment();
         made.frames = 1200;
         made.window = WindowShape::Hann;
-        FieldTransform transform(made);
         NoisyField field;
-        makeNoise(made, 0, transform, field);
+        makeNoise(made, 0, field);
         double sum = 0.0;
         for (const std::complex<float> value : field.noise)
             sum += double(std::norm(value));
@@ -102,17 +100,16 @@ private slots:
     void runsHaveNoiseOfTheirOwn()
     {
         LineExperiment made = experiment();
-        FieldTransform transform(made);
-        const NoisyField first = makeField(made, 4, transform);
+        const NoisyField first = makeField(made, 4);
         NoisyField alone;
-        makeNoise(made, 4, transform, alone);
+        makeNoise(made, 4, alone);
         QVERIFY(alone.noise == first.noise); // the lines take none of its numbers
-        QVERIFY(makeField(made, 4, transform).signal == first.signal);
-        makeNoise(made, 5, transform, alone);
+        QVERIFY(makeField(made, 4).signal == first.signal);
+        makeNoise(made, 5, alone);
         QVERIFY(alone.noise != first.noise);
-        QVERIFY(makeField(made, 5, transform).places[0].bins != first.places[0].bins);
+        QVERIFY(makeField(made, 5).places[0].bins != first.places[0].bins);
         made.seed = 4;
-        makeNoise(made, 4, transform, alone);
+        makeNoise(made, 4, alone);
         QVERIFY(alone.noise != first.noise);
     }
 
@@ -121,10 +118,9 @@ private slots:
         LineExperiment made = experiment();
         made.blockBins = 200;
         made.wanderCells = 2.0;
-        FieldTransform transform(made);
         QCOMPARE(made.signalsPerRun(), 10);
         for (int run = 0; run < 10; ++run) {
-            const NoisyField field = makeField(made, run, transform);
+            const NoisyField field = makeField(made, run);
             QCOMPARE(field.places.size(), std::size_t(10));
             for (Index i = 0; i < 10; ++i) {
                 const Place &place = field.places[std::size_t(i)];
@@ -140,11 +136,10 @@ private slots:
     void aSteadyLineFillsItsBinWithItsPower()
     {
         const LineExperiment made = experiment();
-        FieldTransform transform(made);
         const double eighth = std::numbers::pi / 8.0;
         const double least = std::pow(std::sin(eighth) / eighth, 2.0);
         for (int run = 0; run < 5; ++run) {
-            const NoisyField field = makeField(made, run, transform);
+            const NoisyField field = makeField(made, run);
             for (const Place &place : field.places) {
                 const Index bin = place.bins.front();
                 for (Index k = 0; k < 39; ++k) { // the last frame's window is half past it
@@ -166,9 +161,8 @@ private slots:
         LineExperiment made = experiment();
         for (const double drift : {0.5, -0.5}) { // cells a window: one bin a frame
             made.driftCellsPerWindow = drift;
-            FieldTransform transform(made);
             for (int run = 0; run < 5; ++run)
-                for (const Place &place : makeField(made, run, transform).places)
+                for (const Place &place : makeField(made, run).places)
                     for (Index k = 0; k < 39; ++k) {
                         const double moved = double(place.bins[std::size_t(k)] - place.bins.front());
                         QVERIFY2(std::abs(moved - 2.0 * drift * double(k)) <= 1.0, qPrintable(QString::number(moved)));

@@ -243,17 +243,16 @@ private slots:
         constexpr int looks = 20;
         constexpr double snr = 0.5;
         const double threshold = thresholdOfMeanPower(1e-3, looks);
-        FieldTransform transform(lineExperiment(Fluctuation::None));
         std::vector<NoisyField> constant;
         for (int run = 0; run < runs; ++run)
-            constant.push_back(makeField(lineExperiment(Fluctuation::None), run, transform));
+            constant.push_back(makeField(lineExperiment(Fluctuation::None), run));
         for (const Fluctuation fluctuation : fluctuating) {
             const LineExperiment lines = lineExperiment(fluctuation);
             std::int64_t found = 0;
             std::int64_t trials = 0;
             double pd = 0.0;
             for (int run = 0; run < runs; ++run) {
-                const NoisyField field = makeField(lines, run, transform);
+                const NoisyField field = makeField(lines, run);
                 const NoisyField &steady = constant[std::size_t(run)];
                 for (const Place &place : steady.places) {
                     const double share =

@@ -5,8 +5,8 @@
 #include "base/files/fileName.h"
 #include "base/wholeNumber.h"
 #include "evaluate/experiments/InjectionTrials.h"
+#include "evaluate/experiments/LineTrials.h"
 #include "evaluate/experiments/SweepTrials.h"
-#include "evaluate/experiments/lineRuns.h"
 #include "signal/openRecording.h"
 
 #include <algorithm>
@@ -15,16 +15,6 @@
 namespace faintline {
 
 namespace {
-
-    InjectionTrials trialsOf(const InjectionExperiment &experiment, const RunContext &context)
-    {
-        return InjectionTrials(experiment, openRecordingOf(experiment), context);
-    }
-
-    SweepTrials trialsOf(const SweepExperiment &experiment, const RunContext &context)
-    {
-        return SweepTrials(experiment, openRecordingOf(experiment), context);
-    }
 
     bool inRunOrder(const RunOutcome &a, const RunOutcome &b)
     {
@@ -110,14 +100,21 @@ void setSeed(Experiment &experiment, int seed)
     std::visit([seed](auto &one) { one.seed = seed; }, experiment);
 }
 
+std::unique_ptr<const Trials> prepareTrials(const Experiment &experiment, RecordingPointer recording,
+                                            const RunContext &context)
+{
+    if (const auto *lines = std::get_if<LineExperiment>(&experiment))
+        return std::make_unique<LineTrials>(*lines, context);
+    if (const auto *injection = std::get_if<InjectionExperiment>(&experiment))
+        return std::make_unique<InjectionTrials>(*injection, std::move(recording), context);
+    return std::make_unique<SweepTrials>(std::get<SweepExperiment>(experiment), std::move(recording), context);
+}
+
 Campaign begin(const Experiment &experiment, const RunContext &context)
 {
-    Campaign campaign{experiment, {}, {}};
-    if (const auto *injection = std::get_if<InjectionExperiment>(&experiment))
-        campaign.thresholds = trialsOf(*injection, context).thresholds();
-    else if (const auto *sweep = std::get_if<SweepExperiment>(&experiment))
-        campaign.thresholds = trialsOf(*sweep, context).thresholds();
-    return campaign;
+    if (std::holds_alternative<LineExperiment>(experiment))
+        return {experiment, {}, {}};
+    return {experiment, prepareTrials(experiment, openRecordingOf(experiment), context)->thresholds(), {}};
 }
 
 void carryOut(Campaign &campaign, const std::vector<int> &runs, const RunContext &context, const RunSink &sink)
@@ -127,12 +124,9 @@ void carryOut(Campaign &campaign, const std::vector<int> &runs, const RunContext
         done.insert(outcome.run);
     std::vector<int> open;
     std::copy_if(runs.begin(), runs.end(), std::back_inserter(open), [&](int run) { return !done.contains(run); });
+    const RecordingPointer recording = openRecordingOf(campaign.experiment);
     const auto outcomes =
-        std::visit(Overloaded{[&](const LineExperiment &lines) { return runExperiment(lines, open, context, sink); },
-                              [&](const auto &one) {
-                                  return trialsOf(one, context.part(0.0, 0.1)).run(open, context.part(0.1, 1.0), sink);
-                              }},
-                   campaign.experiment);
+        prepareTrials(campaign.experiment, recording, context.part(0.0, 0.1))->run(open, context.part(0.1, 1.0), sink);
     campaign.outcomes.insert(campaign.outcomes.end(), outcomes.begin(), outcomes.end());
     std::sort(campaign.outcomes.begin(), campaign.outcomes.end(), inRunOrder);
 }

@@ -1,13 +1,11 @@
 #pragma once
 
-#include "base/Interval.h"
 #include "evaluate/experiments/InjectionExperiment.h"
 #include "evaluate/experiments/LineExperiment.h"
-#include "evaluate/experiments/RunOutcome.h"
 #include "evaluate/experiments/SweepExperiment.h"
+#include "evaluate/experiments/Trials.h"
 
-#include <cstdint>
-#include <optional>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -38,6 +36,10 @@ std::string recordingOf(const Experiment &experiment);
 
 /// Opens the recording that an experiment names; null if its noise is simulated. Throws Error.
 RecordingPointer openRecordingOf(const Experiment &experiment);
+
+/// Prepares an experiment's runs; the recording is the one that it names. Throws Error, Cancelled.
+std::unique_ptr<const Trials> prepareTrials(const Experiment &experiment, RecordingPointer recording,
+                                            const RunContext &context = {});
 
 /// An experiment with the runs done so far: a part of a campaign, or all of it.
 struct Campaign {

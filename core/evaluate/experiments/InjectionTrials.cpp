@@ -3,7 +3,6 @@
 #include "analyse/analyse.h"
 #include "base/Error.h"
 #include "base/Random.h"
-#include "base/parallel.h"
 #include "calibrate/calibrate.h"
 #include "evaluate/experiments/lineDetection.h"
 #include "plan/chain.h"
@@ -14,7 +13,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -90,7 +88,6 @@ namespace {
         return mask;
     }
 
-    /// The frames of a trial that a detector sees.
     /// Largest statistic of every detector in each block of the recording that does not consist of signals alone.
     std::vector<std::vector<float>> blockMaxima(const std::vector<AnalysisPlan> &plans, const SignalMask &mask,
                                                 Index blockFrames, Index blockBins, const RunContext &context)
@@ -201,7 +198,7 @@ InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, Recordin
 
 InjectionTrials::~InjectionTrials() = default;
 
-InjectionTrials::InjectedTrial InjectionTrials::remake(int trial, double snrDb) const
+MadeTrial InjectionTrials::remake(int trial, double snrDb) const
 {
     const Spectrogram &spectrogram = *m_shared->spectrogram;
     const RecordingInfo &info = m_shared->recording->info();
@@ -263,7 +260,7 @@ InjectionTrials::InjectedTrial InjectionTrials::remake(int trial, double snrDb) 
 class InjectionTrials::LineLook
 {
 public:
-    LineLook(const InjectionTrials &trials, const InjectedTrial &made, bool hasLine)
+    LineLook(const InjectionTrials &trials, const MadeTrial &made, bool hasLine)
         : m_experiment(trials.m_experiment), m_shared(*trials.m_shared), m_truth(made.truth),
           m_frames(framesAround(hasLine ? made.recording : m_shared.recording))
     {
@@ -380,13 +377,10 @@ AnalysisSettings InjectionTrials::wholeSettings(std::size_t detector, const Trut
     return settings;
 }
 
-std::vector<RunOutcome> InjectionTrials::run(const std::vector<int> &trials, const RunContext &context,
-                                             const RunSink &sink) const
+RunOutcome InjectionTrials::outcomeOf(int trial, const RunContext &quiet) const
 {
-    RunContext quiet;
-    quiet.stop = context.stop;
-    const auto largestOn = [&](int trial, double snrDb, bool hasLine) {
-        const InjectedTrial made = remake(trial, snrDb);
+    const auto largestOn = [&](double snrDb, bool hasLine) {
+        const MadeTrial made = remake(trial, snrDb);
         std::vector<float> largest = LineLook(*this, made, hasLine).largest();
         for (std::size_t d = 0; d < largest.size(); ++d)
             if (m_experiment.detectors[d].isWhole)
@@ -397,28 +391,17 @@ std::vector<RunOutcome> InjectionTrials::run(const std::vector<int> &trials, con
                               .margin);
         return largest;
     };
-    std::vector<RunOutcome> outcomes(trials.size());
-    std::mutex guard;
-    parallelFor(std::ssize(trials), context, "injecting lines", [&] {
-        return [&](Index i) {
-            RunOutcome &outcome = outcomes[std::size_t(i)];
-            outcome.run = trials[std::size_t(i)];
-            outcome.signal.assign(m_experiment.detectors.size(),
-                                  std::vector<std::vector<float>>(m_experiment.snrDb.size()));
-            for (const float value : largestOn(outcome.run, 0.0, false))
-                outcome.noise.push_back({value});
-            for (std::size_t s = 0; s < m_experiment.snrDb.size(); ++s) {
-                const std::vector<float> largest = largestOn(outcome.run, m_experiment.snrDb[s], true);
-                for (std::size_t d = 0; d < largest.size(); ++d)
-                    outcome.signal[d][s] = {largest[d]};
-            }
-            if (sink) {
-                const std::lock_guard lock(guard);
-                sink(outcome);
-            }
-        };
-    });
-    return outcomes;
+    RunOutcome outcome;
+    outcome.run = trial;
+    outcome.signal.resize(m_experiment.detectors.size());
+    for (const float value : largestOn(0.0, false))
+        outcome.noise.push_back({value});
+    for (const double snrDb : m_experiment.snrDb) {
+        const std::vector<float> largest = largestOn(snrDb, true);
+        for (std::size_t d = 0; d < largest.size(); ++d)
+            outcome.signal[d].push_back({largest[d]});
+    }
+    return outcome;
 }
 
 SignalMask::SignalMask(Index frames, Index bins) : m_bins(bins), m_stretches(std::size_t(frames)) {}

@@ -1,12 +1,9 @@
 #pragma once
 
 #include "base/Axis.h"
-#include "base/RunContext.h"
 #include "evaluate/experiments/InjectionExperiment.h"
-#include "evaluate/experiments/RunOutcome.h"
+#include "evaluate/experiments/Trials.h"
 #include "plan/Calibration.h"
-#include "scene/Truth.h"
-#include "signal/Recording.h"
 
 #include <memory>
 #include <span>
@@ -15,8 +12,9 @@
 
 namespace faintline {
 
-/// Shared by all trials of an experiment: the recording, its background, the detectors' thresholds.
-class InjectionTrials
+/// The trials of lines injected into a recording: run = trial, noise = [detector][0] without the line, signal =
+/// [detector][SNR][0] with it. The thresholds are one per detector; 0 for the margin of `detect` as a whole.
+class InjectionTrials : public Trials
 {
 public:
     /// Estimates the recording's noise, calibrates each detector, finds existing signals and measures thresholds.
@@ -24,30 +22,17 @@ public:
     InjectionTrials(const InjectionExperiment &experiment, RecordingPointer recording, const RunContext &context = {});
     ~InjectionTrials();
 
-    /// The thresholds, one per detector; 0 for the margin of `detect` as a whole.
-    const std::vector<double> &thresholds() const { return m_thresholds; }
-
-    /// Runs the given trials on context.threads threads; run = trial, noise = [detector][0] without the line, signal =
-    /// [detector][SNR][0] with it. Depends only on the experiment and the recording.
-    std::vector<RunOutcome> run(const std::vector<int> &trials, const RunContext &context = {},
-                                const RunSink &sink = {}) const;
-
-    /// The recording with one trial's line, and the line's truth.
-    struct InjectedTrial {
-        RecordingPointer recording;
-        TruthLine truth;
-    };
-    InjectedTrial remake(int trial, double snrDb) const;
+    MadeTrial remake(int trial, double snrDb) const;
 
     /// With these, a detector that is `detect` as a whole analyses a recording with or without that line.
     AnalysisSettings wholeSettings(std::size_t detector, const TruthLine &line) const;
 
 private:
+    RunOutcome outcomeOf(int trial, const RunContext &quiet) const override;
     struct Shared;
     class LineLook;
     InjectionExperiment m_experiment;
     std::unique_ptr<const Shared> m_shared;
-    std::vector<double> m_thresholds;
 };
 
 /// Cells of a recording that hold signals: ranges of bins, frame by frame.

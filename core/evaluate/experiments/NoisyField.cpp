@@ -4,6 +4,7 @@
 #include "base/multiversion.h"
 #include "scene/Tone.h"
 #include "signal/ArrayRecording.h"
+#include "signal/Fft.h"
 
 #include <algorithm>
 #include <cmath>
@@ -69,46 +70,41 @@ namespace {
 
 } // namespace
 
-FieldTransform::FieldTransform(const LineExperiment &experiment)
-    : m_hop(LineExperiment::windowSamples / experiment.stepsPerWindow), m_frames(experiment.frames),
-      m_bins(experiment.bins()), m_window(sampleWindow(experiment.window, LineExperiment::windowSamples)),
-      m_fft(experiment.bins(), Fft::Input::Complex), m_buffer(m_fft.buffer())
+std::vector<Complex> fieldTransform(const LineExperiment &experiment, std::span<const float> samples)
 {
-}
-
-void FieldTransform::run(std::span<const float> samples, std::vector<Complex> &out)
-{
-    out.resize(std::size_t(m_frames * m_bins));
-    for (Index frame = 0; frame < m_frames; ++frame) {
-        const float *from = samples.data() + 2 * frame * m_hop;
-        const std::span<float> input = m_buffer->input();
-        for (std::size_t i = 0; i < m_window.size(); ++i) {
-            input[2 * i] = from[2 * i] * m_window[i];
-            input[2 * i + 1] = from[2 * i + 1] * m_window[i];
+    const Index bins = experiment.bins();
+    const std::vector<float> window = sampleWindow(experiment.window, LineExperiment::windowSamples);
+    const Fft fft(experiment.bins(), Fft::Input::Complex);
+    const auto buffer = fft.buffer();
+    std::vector<Complex> spectra(std::size_t(experiment.frames * bins));
+    for (Index frame = 0; frame < experiment.frames; ++frame) {
+        const float *from = samples.data() + 2 * frame * (LineExperiment::windowSamples / experiment.stepsPerWindow);
+        const std::span<float> input = buffer->input();
+        for (std::size_t i = 0; i < window.size(); ++i) {
+            input[2 * i] = from[2 * i] * window[i];
+            input[2 * i + 1] = from[2 * i + 1] * window[i];
         }
-        std::fill(input.begin() + std::ptrdiff_t(2 * m_window.size()), input.end(), 0.0f);
-        m_fft.run(*m_buffer);
+        std::fill(input.begin() + std::ptrdiff_t(2 * window.size()), input.end(), 0.0f);
+        fft.run(*buffer);
         // The centre frequency is in the middle of the axis.
-        const auto spectrum = m_buffer->output();
-        Complex *row = out.data() + frame * m_bins;
-        const Index half = m_bins / 2;
-        std::copy(spectrum.begin() + (m_bins - half), spectrum.end(), row);
-        std::copy(spectrum.begin(), spectrum.begin() + (m_bins - half), row + half);
+        const auto spectrum = buffer->output();
+        std::rotate_copy(spectrum.begin(), spectrum.end() - bins / 2, spectrum.end(), spectra.begin() + frame * bins);
     }
+    return spectra;
 }
 
-void makeNoise(const LineExperiment &experiment, int run, FieldTransform &transform, NoisyField &field)
+void makeNoise(const LineExperiment &experiment, int run, NoisyField &field)
 {
     field.noiseSamples.resize(std::size_t(2 * recordingInfo(experiment).sampleCount));
     Random(std::uint64_t(experiment.seed), std::uint64_t(run) * streamsPerRun)
         .normals(field.noiseSamples, float(std::sqrt(0.5)));
-    transform.run(field.noiseSamples, field.noise);
+    field.noise = fieldTransform(experiment, field.noiseSamples);
 }
 
-NoisyField makeField(const LineExperiment &experiment, int run, FieldTransform &transform)
+NoisyField makeField(const LineExperiment &experiment, int run)
 {
     NoisyField field;
-    makeNoise(experiment, run, transform, field);
+    makeNoise(experiment, run, field);
     const RecordingInfo info = recordingInfo(experiment);
     const auto seed = std::uint64_t(experiment.seed);
     field.signalSamples.resize(field.noiseSamples.size());
@@ -143,7 +139,7 @@ NoisyField makeField(const LineExperiment &experiment, int run, FieldTransform &
         field.truths.push_back(tone.truth());
         field.places.push_back(std::move(place));
     }
-    transform.run(field.signalSamples, field.signal);
+    field.signal = fieldTransform(experiment, field.signalSamples);
     for (std::size_t i = 0; i < field.truths.size(); ++i) {
         Place &place = field.places[i];
         const Index lowest = Index(i) % experiment.blocksInFrequency() * experiment.blockBins;

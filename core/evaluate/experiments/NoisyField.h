@@ -2,11 +2,9 @@
 
 #include "evaluate/experiments/LineExperiment.h"
 #include "scene/Truth.h"
-#include "signal/Fft.h"
 #include "signal/Recording.h"
 
 #include <complex>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -30,27 +28,13 @@ struct NoisyField {
     std::vector<TruthLine> truths; ///< one per place, in seconds and in Hz from the field's lowest frequency
 };
 
-/// Sliding transforms of interleaved complex samples, scaled to unit noise variance. Use one object per thread.
-class FieldTransform
-{
-public:
-    explicit FieldTransform(const LineExperiment &experiment);
-
-    void run(std::span<const float> samples, std::vector<std::complex<float>> &out);
-
-private:
-    Index m_hop;
-    Index m_frames;
-    Index m_bins;
-    std::vector<float> m_window;
-    Fft m_fft;
-    std::unique_ptr<Fft::Buffer> m_buffer;
-};
+/// Sliding transforms of interleaved complex samples, frames × bins, scaled to unit noise variance.
+std::vector<std::complex<float>> fieldTransform(const LineExperiment &experiment, std::span<const float> samples);
 
 /// Generates the run's noise only.
-void makeNoise(const LineExperiment &experiment, int run, FieldTransform &transform, NoisyField &field);
+void makeNoise(const LineExperiment &experiment, int run, NoisyField &field);
 
-NoisyField makeField(const LineExperiment &experiment, int run, FieldTransform &transform);
+NoisyField makeField(const LineExperiment &experiment, int run);
 
 /// The samples noise + amplitude·signal as a recording.
 RecordingPointer recordingOf(const LineExperiment &experiment, const NoisyField &field, float amplitude);

@@ -3,7 +3,6 @@
 #include "analyse/analyse.h"
 #include "base/Error.h"
 #include "base/Random.h"
-#include "base/parallel.h"
 #include "calibrate/calibrate.h"
 #include "evaluate/experiments/lineDetection.h"
 #include "evaluate/experiments/measureCost.h"
@@ -13,20 +12,12 @@
 #include "scene/SimulatedRecording.h"
 
 #include <algorithm>
-#include <mutex>
 
 namespace faintline {
 
 namespace {
 
     constexpr double bandMargin = 0.1; ///< fraction of the band at either edge that is kept free of lines
-
-    RunOutcome scored(int run, const Analysis &analysis, const TruthLine &truth)
-    {
-        return sweepOutcome(run, countTracksBeside(analysis, truth),
-                            double(analysis.time().count) * analysis.time().step,
-                            lineDetection(analysis, truth).latencySeconds);
-    }
 
 } // namespace
 
@@ -133,7 +124,7 @@ SweepTrials::SweptTrial SweepTrials::simulate(const SweepExperiment &one, const 
     scene.seed = int(placement.seed % 2147483647);
     scene.lines = {line};
     const auto simulated = std::make_shared<SimulatedRecording>(scene);
-    SweptTrial made{simulated, simulated->truth().lines.front(), one.settings};
+    SweptTrial made{{simulated, simulated->truth().lines.front()}, one.settings};
     made.settings.selection.fromSeconds = made.settings.selection.toSeconds = 0.0;
     made.settings.selection.channel = 0;
     return made;
@@ -153,7 +144,7 @@ SweepTrials::SweptTrial SweepTrials::inject(const SweepExperiment &one, LineSett
                                                           + formatNumber(to - from) + " s");
     const double begin = from + placement.inTime * (to - from - whole);
     line.startSeconds += begin;
-    SweptTrial made{nullptr, {}, one.settings};
+    SweptTrial made{{}, one.settings};
     made.settings.selection.fromSeconds = begin;
     made.settings.selection.toSeconds = begin + whole;
     AnalysisSettings placing = m_experiment.settings; // the noise under the line is the same for every value
@@ -166,27 +157,13 @@ SweepTrials::SweptTrial SweepTrials::inject(const SweepExperiment &one, LineSett
     return made;
 }
 
-std::vector<RunOutcome> SweepTrials::run(const std::vector<int> &runs, const RunContext &context,
-                                         const RunSink &sink) const
+RunOutcome SweepTrials::outcomeOf(int run, const RunContext &quiet) const
 {
-    std::vector<RunOutcome> outcomes(runs.size());
-    std::mutex guard;
-    parallelFor(std::ssize(runs), context, "trying values", [&] {
-        return [&](Index i) {
-            RunOutcome &outcome = outcomes[std::size_t(i)];
-            const int run = runs[std::size_t(i)];
-            const SweptTrial made = remake(run);
-            RunContext quiet;
-            quiet.stop = context.stop;
-            outcome = scored(run, *analyse(made.recording, made.settings, {.depth = AnalysisDepth::Tracks}, quiet),
-                             made.truth);
-            if (sink) {
-                const std::lock_guard lock(guard);
-                sink(outcome);
-            }
-        };
-    });
-    return outcomes;
+    const SweptTrial made = remake(run);
+    const auto analysis = analyse(made.recording, made.settings, {.depth = AnalysisDepth::Tracks}, quiet);
+    const LineDetection found = lineDetection(*analysis, made.truth);
+    return sweepOutcome(run, found.tracksBeside, double(analysis->time().count) * analysis->time().step,
+                        found.latencySeconds);
 }
 
 std::vector<double> SweepTrials::costs(const RunContext &context) const

@@ -1,11 +1,8 @@
 #pragma once
 
-#include "base/RunContext.h"
-#include "evaluate/experiments/RunOutcome.h"
 #include "evaluate/experiments/SweepExperiment.h"
+#include "evaluate/experiments/Trials.h"
 #include "plan/Calibration.h"
-#include "scene/Truth.h"
-#include "signal/Recording.h"
 
 #include <vector>
 
@@ -15,25 +12,16 @@ namespace faintline {
 /// the line's start to its detection}}}, -∞ if it was missed.
 RunOutcome sweepOutcome(int run, std::ptrdiff_t falseAlarms, double seconds, double latencySeconds);
 
-/// Shared by all runs of a sweep: the recording, and a calibration for each value.
-class SweepTrials
+/// The runs of a sweep. The thresholds are one per value; if a window is chosen in each trial, those of the window T0.
+class SweepTrials : public Trials
 {
 public:
     /// `recording` may be null for simulated noise. Calibrates each value. Throws Error, Cancelled.
     SweepTrials(const SweepExperiment &experiment, RecordingPointer recording, const RunContext &context = {});
 
-    /// The thresholds, one per value; if a window is chosen in each trial, those of the window T0.
-    const std::vector<double> &thresholds() const { return m_thresholds; }
-
-    /// Executes the given runs on context.threads threads. Depends only on the experiment and the recording.
-    std::vector<RunOutcome> run(const std::vector<int> &runs, const RunContext &context = {},
-                                const RunSink &sink = {}) const;
-
-    /// One trial regenerated: the recording with its line, and the line's truth. The settings select the stretch.
-    struct SweptTrial {
-        RecordingPointer recording;
-        TruthLine truth;
-        AnalysisSettings settings; ///< with the run's value
+    /// The settings have the run's value, and select the stretch.
+    struct SweptTrial : MadeTrial {
+        AnalysisSettings settings;
     };
     SweptTrial remake(int run) const;
 
@@ -41,6 +29,7 @@ public:
     std::vector<double> costs(const RunContext &context = {}) const;
 
 private:
+    RunOutcome outcomeOf(int run, const RunContext &quiet) const override;
     struct Placement;
     LineSettings lineAt(const SweepExperiment &one, const Placement &placement) const; ///< from its stretch's start
     SweptTrial simulate(const SweepExperiment &one, const LineSettings &line, const Placement &placement) const;
@@ -50,7 +39,6 @@ private:
     RecordingPointer m_recording;
     std::vector<StopBand> m_stopBands; ///< of the recording: no line is placed there
     double m_referenceSeconds;         ///< the window to which an SNR refers
-    std::vector<double> m_thresholds;
 };
 
 } // namespace faintline

@@ -45,21 +45,17 @@ namespace {
 
 LineDetection lineDetection(const Analysis &analysis, const TruthLine &line)
 {
-    LineDetection found{missed, missed};
+    LineDetection found{missed, missed, 0};
     for (const Track &track : analysis.tracks) {
-        if (bondOf(track, analysis, line) != Bond::OnIt)
+        const Bond bond = bondOf(track, analysis, line);
+        found.tracksBeside += bond == Bond::None ? 1 : 0;
+        if (bond != Bond::OnIt)
             continue;
         const double latency = std::max(0.0, analysis.time().value(double(track.detectFrame)) - line.startSeconds);
         found.latencySeconds = found.latencySeconds < 0.0 ? latency : std::min(latency, found.latencySeconds);
         found.margin = std::max(found.margin, marginOf(statisticOf(track, analysis), analysis));
     }
     return found;
-}
-
-std::ptrdiff_t countTracksBeside(const Analysis &analysis, const TruthLine &line)
-{
-    return std::ranges::count_if(analysis.tracks,
-                                 [&](const Track &track) { return bondOf(track, analysis, line) == Bond::None; });
 }
 
 double marginOf(double statistic, const Analysis &analysis)

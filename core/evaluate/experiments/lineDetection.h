@@ -13,12 +13,10 @@ struct LineDetection {
     /// By how much the largest statistic of the tracks that detect it exceeds the threshold, in the detector's unit,
     /// above 0; -∞ if it was missed.
     double margin;
-    double latencySeconds; ///< from its start to its detection; -∞ if it was missed
+    double latencySeconds;       ///< from its start to its detection; -∞ if it was missed
+    std::ptrdiff_t tracksBeside; ///< number of tracks that never touch the line
 };
 LineDetection lineDetection(const Analysis &analysis, const TruthLine &line);
-
-/// Number of tracks that never touch the line.
-std::ptrdiff_t countTracksBeside(const Analysis &analysis, const TruthLine &line);
 
 /// The margin of a statistic (statisticOf) that the analysis detected, as that of a LineDetection.
 double marginOf(double statistic, const Analysis &analysis);

@@ -1,8 +1,9 @@
 #include "evaluate/experiments/showTrial.h"
 
 #include "analyse/analyse.h"
+#include "evaluate/experiments/InjectionTrials.h"
+#include "evaluate/experiments/LineTrials.h"
 #include "evaluate/experiments/campaignCurve.h"
-#include "evaluate/experiments/lineRuns.h"
 
 #include <algorithm>
 
@@ -37,7 +38,7 @@ namespace {
         AnalysisSettings settings = alone.detectors.front().settings;
         if (auto *smd = std::get_if<SmdSettings>(&settings.detector);
             smd && smd->reset == SmdSettings::Reset::Calibrated)
-            *smd = {SmdSettings::Reset::Fixed, calibratedResets(alone, context.part(0.0, 0.3)).front().lnK};
+            *smd = {SmdSettings::Reset::Fixed, LineTrials(alone, context.part(0.0, 0.3)).resets().front().lnK};
         settings.detector = inFrames(settings.detector, lines);
         setThreshold(settings, shownThreshold(campaign, point.detector));
 
@@ -58,18 +59,11 @@ namespace {
                 {{truth}}};
     }
 
-    ShownTrial showWhole(const LineExperiment &lines, const CampaignPoint &point, const TrialPlace &place,
-                         const RunContext &context)
-    {
-        const FieldTrial trial = remakeField(lines, lines.snrDb[point.snr], place.run, place.signal);
-        return {analyse(trial.recording, wholeSettings(lines, point.detector), {}, context), {{trial.line}}};
-    }
-
     ShownTrial showInjected(const Campaign &campaign, const InjectionTrials &trials, const CampaignPoint &point,
                             const TrialPlace &place, const RunContext &context)
     {
         const auto &injection = std::get<InjectionExperiment>(campaign.experiment);
-        const InjectionTrials::InjectedTrial made = trials.remake(place.run, injection.snrDb[point.snr]);
+        const MadeTrial made = trials.remake(place.run, injection.snrDb[point.snr]);
         AnalysisSettings settings = settingsOf(injection, point.detector);
         if (injection.detectors[point.detector].isWhole)
             settings = trials.wholeSettings(point.detector, made.truth);
@@ -96,17 +90,20 @@ std::vector<TrialOutcome> trialsOf(const Campaign &campaign, const CampaignPoint
     return result;
 }
 
-ShownTrial showTrial(const Campaign &campaign, const InjectionTrials *trials, const CampaignPoint &point,
+ShownTrial showTrial(const Campaign &campaign, const Trials *trials, const CampaignPoint &point,
                      const TrialPlace &place, const RunContext &context)
 {
-    if (const auto *lines = std::get_if<LineExperiment>(&campaign.experiment))
-        return lines->detectors[point.detector].isWhole ? showWhole(*lines, point, place, context)
-                                                        : showLine(campaign, *lines, point, place, context);
+    if (const auto *lines = std::get_if<LineExperiment>(&campaign.experiment)) {
+        if (!lines->detectors[point.detector].isWhole)
+            return showLine(campaign, *lines, point, place, context);
+        const MadeTrial made = remakeField(*lines, lines->snrDb[point.snr], place.run, place.signal);
+        return {analyse(made.recording, wholeSettings(*lines, point.detector), {}, context), {{made.truth}}};
+    }
     if (std::holds_alternative<SweepExperiment>(campaign.experiment))
         throw Error("trial", "trials of a sweep cannot be shown; apply the value and inject a line instead");
-    if (!trials)
-        throw Error("trial", "belongs to an imported injection experiment; run the experiment here to see its trials");
-    return showInjected(campaign, *trials, point, place, context);
+    if (const auto *injected = dynamic_cast<const InjectionTrials *>(trials))
+        return showInjected(campaign, *injected, point, place, context);
+    throw Error("trial", "belongs to an imported injection experiment; run the experiment here to see its trials");
 }
 
 } // namespace faintline

@@ -2,7 +2,6 @@
 
 #include "base/RunContext.h"
 #include "evaluate/experiments/Campaign.h"
-#include "evaluate/experiments/InjectionTrials.h"
 #include "plan/Analysis.h"
 #include "scene/Truth.h"
 
@@ -42,9 +41,9 @@ struct ShownTrial {
 
 /// Regenerates the trial behind a point, with the detector's settings, the campaign's own ln K and the threshold of
 /// `shownThreshold`. A simulated line comes with its block only, with a window T_FT of one second and a resolution cell
-/// of one hertz; an injected one with the whole selection. `trials`: prepared trials of an injection, null otherwise.
+/// of one hertz; an injected one with the whole selection. `trials`: those of the campaign, which an injection requires.
 /// Throws Error, Cancelled.
-ShownTrial showTrial(const Campaign &campaign, const InjectionTrials *trials, const CampaignPoint &point,
+ShownTrial showTrial(const Campaign &campaign, const Trials *trials, const CampaignPoint &point,
                      const TrialPlace &place, const RunContext &context = {});
 
 } // namespace faintline

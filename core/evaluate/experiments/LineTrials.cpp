@@ -1,4 +1,4 @@
-#include "evaluate/experiments/lineRuns.h"
+#include "evaluate/experiments/LineTrials.h"
 
 #include "analyse/analyse.h"
 #include "base/logmath.h"
@@ -12,18 +12,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mutex>
 
 namespace faintline {
 
 namespace {
-
-    /// Description of one of the experiment's detectors, once K is known.
-    struct Recipe {
-        MarkovModel model;
-        DetectorSettings detector;
-        ResetRule rule;
-    };
 
     Grid gridOf(const LineExperiment &experiment)
     {
@@ -39,9 +31,9 @@ namespace {
             experiment.frames = 2 * settlingFrames;
         std::vector<NormalisedFramesPointer> noise(fields);
         parallelFor(fields, context, "calibrating K on noise", [&] {
-            return [&, transform = std::make_shared<FieldTransform>(experiment)](Index i) {
+            return [&](Index i) {
                 NoisyField field;
-                makeNoise(experiment, std::numeric_limits<int>::max() - int(i), *transform, field);
+                makeNoise(experiment, std::numeric_limits<int>::max() - int(i), field);
                 field.signal.assign(field.noise.size(), {});
                 std::vector<float> y(field.noise.size());
                 const Index bins = experiment.bins();
@@ -53,24 +45,6 @@ namespace {
             };
         });
         return noise;
-    }
-
-    std::vector<Recipe> recipesOf(const LineExperiment &experiment, const RunContext &context)
-    {
-        std::vector<Recipe> recipes;
-        for (const DetectorUnderTest &detectorUnderTest : experiment.detectors)
-            recipes.push_back({makeModel(detectorUnderTest.settings.model, gridOf(experiment)),
-                               detectorUnderTest.settings.detector,
-                               {}});
-        const auto noise = calibrationNoise(experiment, context);
-        parallelFor(std::ssize(recipes), context, "calibrating K on noise", [&] {
-            return [&](Index i) {
-                Recipe &recipe = recipes[std::size_t(i)];
-                if (const auto *smd = std::get_if<SmdSettings>(&recipe.detector))
-                    recipe.rule = resetRule(*smd, fitReset(noise, recipe.model, *smd).lnK);
-            };
-        });
-        return recipes;
     }
 
     FrameGeometry geometryOf(const LineExperiment &experiment)
@@ -86,30 +60,19 @@ namespace {
         return Index((turns - std::floor(turns)) * double(framesPerBlock));
     }
 
-    std::vector<std::unique_ptr<Detector>> detectorsOf(const LineExperiment &experiment,
-                                                       const std::vector<Recipe> &recipes, int run)
-    {
-        std::vector<std::unique_ptr<Detector>> detectors;
-        for (const Recipe &recipe : recipes) {
-            FrameGeometry geometry = geometryOf(experiment);
-            geometry.blockPhase = blockPhase(run, framesPerDecision(recipe.detector, geometry));
-            detectors.push_back(makeDetector(recipe.detector, recipe.model, gridOf(experiment), geometry, recipe.rule));
-        }
-        return detectors;
-    }
-
     constexpr float belowEachStatistic = -std::numeric_limits<float>::infinity();
 
     /// Runs all detectors on the field of one run.
     class Run
     {
     public:
-        Run(const LineExperiment &experiment, int number, const std::vector<Recipe> &recipes, FieldTransform &transform)
-            : m_experiment(experiment), m_number(number), m_recipes(recipes),
-              m_field(makeField(experiment, number, transform)), m_signals(std::size_t(experiment.signalsPerRun()))
+        Run(const LineExperiment &experiment, int number, const std::vector<MarkovModel> &models,
+            const std::vector<ResetRule> &resets)
+            : m_experiment(experiment), m_number(number), m_models(models), m_resets(resets),
+              m_field(makeField(experiment, number)), m_signals(std::size_t(experiment.signalsPerRun()))
         {
-            for (const Recipe &recipe : recipes)
-                m_waits.push_back(framesPerDecision(recipe.detector, geometryOf(experiment)) - 1);
+            for (const DetectorUnderTest &one : experiment.detectors)
+                m_waits.push_back(framesPerDecision(one.settings.detector, geometryOf(experiment)) - 1);
         }
 
         RunOutcome outcome(const RunContext &context) const
@@ -119,13 +82,13 @@ namespace {
             outcome.noise = largestInBlocks();
             replaceByMargins(outcome.noise, 0.0f, context,
                              [this](const Analysis &analysis) { return marginsInBlocks(analysis); });
-            outcome.signal.assign(m_recipes.size(), {});
+            outcome.signal.assign(m_waits.size(), {});
             for (const double snrDb : m_experiment.snrDb) {
                 const auto amplitude = float(std::sqrt(ratioFromDb(snrDb)));
                 Largest largest = largestOnLines(amplitude);
                 replaceByMargins(largest, amplitude, context,
                                  [this](const Analysis &analysis) { return marginsOnLines(analysis); });
-                for (std::size_t d = 0; d < m_recipes.size(); ++d)
+                for (std::size_t d = 0; d < m_waits.size(); ++d)
                     outcome.signal[d].push_back(largest[d]);
             }
             return outcome;
@@ -136,7 +99,19 @@ namespace {
 
         Largest lowestOfAll() const
         {
-            return Largest(m_recipes.size(), std::vector<float>(m_signals, belowEachStatistic));
+            return Largest(m_waits.size(), std::vector<float>(m_signals, belowEachStatistic));
+        }
+
+        std::vector<std::unique_ptr<Detector>> detectorsAtWork() const
+        {
+            std::vector<std::unique_ptr<Detector>> detectors;
+            for (std::size_t d = 0; d < m_waits.size(); ++d) {
+                FrameGeometry geometry = geometryOf(m_experiment);
+                geometry.blockPhase = blockPhase(m_number, m_waits[d] + 1);
+                detectors.push_back(makeDetector(m_experiment.detectors[d].settings.detector, m_models[d],
+                                                 gridOf(m_experiment), geometry, m_resets[d]));
+            }
+            return detectors;
         }
 
         Index blockedFrames() const { return Index(m_experiment.blocksInTime()) * m_experiment.blockFrames; }
@@ -145,7 +120,7 @@ namespace {
         template <class Look>
         void detect(float amplitude, Index frames, Look look) const
         {
-            const auto detectors = detectorsOf(m_experiment, m_recipes, m_number);
+            const auto detectors = detectorsAtWork();
             std::vector<float> y(std::size_t(m_experiment.bins()));
             std::vector<float> statistic(y.size());
             for (Index frame = 0; frame < frames; ++frame) {
@@ -238,7 +213,8 @@ namespace {
 
         const LineExperiment &m_experiment;
         int m_number;
-        const std::vector<Recipe> &m_recipes;
+        const std::vector<MarkovModel> &m_models;
+        const std::vector<ResetRule> &m_resets;
         NoisyField m_field;
         std::size_t m_signals;
         std::vector<Index> m_waits; ///< frames until each detector's next decision
@@ -256,42 +232,31 @@ AnalysisSettings wholeSettings(const LineExperiment &experiment, std::size_t det
     return settings;
 }
 
-std::vector<ResetRule> calibratedResets(const LineExperiment &experiment, const RunContext &context)
+LineTrials::LineTrials(const LineExperiment &experiment, const RunContext &context) : m_experiment(experiment)
 {
     checkExperiment(experiment);
-    std::vector<ResetRule> rules;
-    for (const Recipe &recipe : recipesOf(experiment, context))
-        rules.push_back(recipe.rule);
-    return rules;
-}
-
-std::vector<RunOutcome> runExperiment(const LineExperiment &experiment, const std::vector<int> &runs,
-                                      const RunContext &context, const RunSink &sink)
-{
-    checkExperiment(experiment);
-    const std::vector<Recipe> recipes = recipesOf(experiment, context.part(0.0, 0.1));
-    std::vector<RunOutcome> outcomes(runs.size());
-    RunContext quiet;
-    quiet.stop = context.stop;
-    std::mutex guard;
-    parallelFor(std::ssize(runs), context.part(0.1, 1.0), "simulating", [&] {
-        return [&, transform = std::make_shared<FieldTransform>(experiment)](Index i) {
-            RunOutcome &outcome = outcomes[std::size_t(i)];
-            outcome = Run(experiment, runs[std::size_t(i)], recipes, *transform).outcome(quiet);
-            if (sink) {
-                const std::lock_guard lock(guard);
-                sink(outcome);
-            }
+    for (const DetectorUnderTest &one : experiment.detectors)
+        m_models.push_back(makeModel(one.settings.model, gridOf(experiment)));
+    m_resets.resize(m_models.size());
+    const auto noise = calibrationNoise(experiment, context);
+    parallelFor(std::ssize(m_models), context, "calibrating K on noise", [&] {
+        return [&](Index i) {
+            const auto d = std::size_t(i);
+            if (const auto *smd = std::get_if<SmdSettings>(&experiment.detectors[d].settings.detector))
+                m_resets[d] = resetRule(*smd, fitReset(noise, m_models[d], *smd).lnK);
         };
     });
-    return outcomes;
+}
+
+RunOutcome LineTrials::outcomeOf(int run, const RunContext &quiet) const
+{
+    return Run(m_experiment, run, m_models, m_resets).outcome(quiet);
 }
 
 LineTrial remakeTrial(const LineExperiment &experiment, double snrDb, int run, int signal)
 {
     checkExperiment(experiment);
-    FieldTransform transform(experiment);
-    const NoisyField field = makeField(experiment, run, transform);
+    const NoisyField field = makeField(experiment, run);
     const Index firstFrame = Index(signal / experiment.blocksInFrequency()) * experiment.blockFrames;
     const Index firstBin = Index(signal % experiment.blocksInFrequency()) * experiment.blockBins;
     std::vector<float> y(std::size_t(experiment.bins()));
@@ -313,11 +278,10 @@ LineTrial remakeTrial(const LineExperiment &experiment, double snrDb, int run, i
     return trial;
 }
 
-FieldTrial remakeField(const LineExperiment &experiment, double snrDb, int run, int signal)
+MadeTrial remakeField(const LineExperiment &experiment, double snrDb, int run, int signal)
 {
     checkExperiment(experiment);
-    FieldTransform transform(experiment);
-    const NoisyField field = makeField(experiment, run, transform);
+    const NoisyField field = makeField(experiment, run);
     return {recordingOf(experiment, field, float(std::sqrt(ratioFromDb(snrDb)))), field.truths[std::size_t(signal)]};
 }
 
