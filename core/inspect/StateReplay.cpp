@@ -6,32 +6,27 @@
 namespace faintline {
 
 StateReplay::StateReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget)
-    : m_replay(std::move(analysis), byteBudget / 2)
+    : m_analysis(std::move(analysis)), m_replay(*m_analysis, byteBudget / 2),
+      m_mostKept(std::max<std::size_t>(1, byteBudget / 2
+                                              / (sizeof(float) * std::size_t(m_analysis->model.space.stateCount()))))
 {
-    const std::size_t frameBytes = sizeof(float) * std::size_t(this->analysis()->model.space.stateCount());
-    m_mostKept = std::max<std::size_t>(1, byteBudget / 2 / frameBytes);
 }
 
 std::shared_ptr<const StateScores> StateReplay::at(Index frame, std::size_t model, const RunContext &context)
 {
-    frame = std::clamp<Index>(frame, 0, analysis()->time().count - 1);
+    frame = std::clamp<Index>(frame, 0, m_analysis->time().count - 1);
     const auto kept = std::find_if(m_kept.begin(), m_kept.end(),
                                    [&](const auto &one) { return one->frame == frame && one->model == model; });
     if (kept != m_kept.end())
         return *kept;
     m_replay.seek(frame);
-    const Index first = m_replay.next();
-    while (m_replay.next() <= frame) {
-        const Index now = m_replay.next();
-        context.checkpoint(double(now - first) / double(frame + 1 - first), "replaying the "
-                                                                            "recording");
-        m_replay.step();
-        if (frame - now < Index(m_mostKept)) {
-            m_kept.push_back(std::make_shared<const StateScores>(scoresNow(*analysis(), m_replay.chain(), now, model)));
-            if (m_kept.size() > m_mostKept)
-                m_kept.pop_front();
-        }
-    }
+    m_replay.stepTo(frame + 1, context, "replaying the recording", [&](Index now) {
+        if (frame - now >= Index(m_mostKept))
+            return;
+        m_kept.push_back(std::make_shared<const StateScores>(scoresNow(*m_analysis, m_replay.chain(), now, model)));
+        if (m_kept.size() > m_mostKept)
+            m_kept.pop_front();
+    });
     return m_kept.back();
 }
 

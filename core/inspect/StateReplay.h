@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/memoryShares.h"
-#include "inspect/ChainReplay.h"
+#include "inspect/Replay.h"
 
 #include <cstddef>
 #include <deque>
@@ -22,21 +22,22 @@ struct StateScores {
 ///
 /// A later frame continues from the current one; the latest frames are cached, so that going back a few steps costs
 /// nothing; otherwise it continues from the run's checkpoint before the frame, or a nearer one of its own
-/// (ChainReplay). The bytes are those of the run. Memory: one chain, plus states of frames and checkpoints within half
+/// (Replay). The bytes are those of the run. Memory: one chain, plus states of frames and checkpoints within half
 /// of the budget each, at least one. Cost: the detector's per frame. Use one object per thread.
 class StateReplay
 {
 public:
     explicit StateReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget = memoryShares::stateReplay);
 
-    const std::shared_ptr<const Analysis> &analysis() const { return m_replay.analysis(); }
+    const std::shared_ptr<const Analysis> &analysis() const { return m_analysis; }
     Index interval() const { return m_replay.interval(); } ///< frames between checkpoints
 
     /// Frame 0 … count-1 (clamped). Throws Cancelled.
     std::shared_ptr<const StateScores> at(Index frame, std::size_t model = 0, const RunContext &context = {});
 
 private:
-    ChainReplay m_replay;
+    std::shared_ptr<const Analysis> m_analysis;
+    Replay m_replay;
     std::size_t m_mostKept;
     std::deque<std::shared_ptr<const StateScores>> m_kept;
 };

@@ -2,7 +2,7 @@
 
 #include "base/logmath.h"
 #include "frames/Spectrogram.h"
-#include "plan/chain.h"
+#include "inspect/Replay.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +13,7 @@ namespace faintline {
 
 namespace {
 
+    constexpr const char *closingUp = "computing the close-up";
     constexpr Index blockValues = Index(1) << 18;
 
     PeakPyramid emptyPicture(const Analysis &analysis, const FrameStretch &stretch, ByteScale::Kind kind,
@@ -34,11 +35,11 @@ namespace {
         std::vector<float> block;
         for (Index first = frames.begin; first < frames.end; first += most) {
             const double share = double(first - frames.begin) / double(frames.end - frames.begin);
-            context.checkpoint(share, "computing the close-up");
+            context.checkpoint(share, closingUp);
             const Index count = std::min(most, frames.end - first);
             block.resize(std::size_t(count * cells));
             source.read(first, count, block);
-            take(first, block);
+            take(block);
         }
     }
 
@@ -78,7 +79,7 @@ std::shared_ptr<const PeakPyramid> inputCloseup(const Analysis &analysis, const 
 {
     auto picture = std::make_shared<PeakPyramid>(emptyPicture(analysis, stretch, ByteScale::Kind::PowerDb, byteBudget));
     readFrames(*analysis.frames, analysis, stretch, context,
-               [&](Index, std::span<const float> block) { picture->append(block); });
+               [&](std::span<const float> block) { picture->append(block); });
     picture->finish();
     return picture;
 }
@@ -88,21 +89,11 @@ std::shared_ptr<const PeakPyramid> statisticCloseup(const Analysis &analysis, co
 {
     auto picture =
         std::make_shared<PeakPyramid>(emptyPicture(analysis, stretch, ByteScale::Kind::ScoreNats, byteBudget));
-    const std::unique_ptr<DetectionChain> chain = makeScoringChain(analysis);
-    FrameStretch way{0, stretch.end};
-    if (const Index latest = analysis.checkpoints.latest(stretch.begin); latest > 0) {
-        chain->setState(*analysis.checkpoints.at(latest));
-        way.begin = latest;
-    }
-
-    const auto cells = std::size_t(analysis.grid().size());
-    std::vector<float> statistic(cells);
-    readFrames(*analysis.frames, analysis, way, context, [&](Index first, std::span<const float> block) {
-        for (Index i = 0; i < std::ssize(block) / Index(cells); ++i) {
-            chain->update(first + i, block.subspan(std::size_t(i) * cells, cells), statistic);
-            if (first + i >= stretch.begin)
-                picture->append(statistic);
-        }
+    Replay replay(analysis);
+    replay.seek(stretch.begin);
+    replay.stepTo(stretch.end, context, closingUp, [&](Index frame) {
+        if (frame >= stretch.begin)
+            picture->append(replay.statistic());
     });
     picture->finish();
     return picture;
@@ -128,7 +119,7 @@ std::optional<PlainPicture> plainPicture(const Analysis &analysis, std::size_t b
     const FrameStretch all{0, analysis.time().count};
     auto picture = std::make_shared<PeakPyramid>(emptyPicture(analysis, all, ByteScale::Kind::PowerDb, byteBudget));
     std::vector<float> scaled;
-    readFrames(*spectrogram, analysis, all, context, [&](Index, std::span<const float> block) {
+    readFrames(*spectrogram, analysis, all, context, [&](std::span<const float> block) {
         scaled.assign(block.begin(), block.end());
         for (float &power : scaled)
             power *= gain;

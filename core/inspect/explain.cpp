@@ -4,7 +4,6 @@
 #include "base/logmath.h"
 #include "base/numberText.h"
 #include "inspect/StateReplay.h"
-#include "plan/chain.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,31 +12,14 @@ namespace faintline {
 
 namespace {
 
-    /// Sets a chain to the run's latest checkpoint before that frame; returns the frame it takes next.
-    Index resumeBefore(DetectionChain &chain, const Analysis &analysis, Index frame)
-    {
-        const Index latest = analysis.checkpoints.latest(frame);
-        if (latest > 0)
-            chain.setState(*analysis.checkpoints.at(latest));
-        return latest;
-    }
-
     /// The chain after the given frame, with all of the past that it would have recorded, and with trackers' histories
-    /// since `begin`. `statistic` receives the statistic of that frame.
-    std::unique_ptr<DetectionChain> runTo(const Analysis &analysis, Index begin, Index frame,
-                                          std::vector<float> &statistic, const RunContext &context)
+    /// since `begin`.
+    Replay replayTo(const Analysis &analysis, Index begin, Index frame, const RunContext &context)
     {
-        auto chain = makeChain(analysis);
-        std::vector<float> y(std::size_t(analysis.grid().size()));
-        statistic.resize(y.size());
-        const Index first = resumeBefore(*chain, analysis, std::min(begin, frame + 1 - chain->longestPath()));
-        for (Index t = first; t <= frame; ++t) {
-            if (t % 64 == 0)
-                context.checkpoint(double(t - first) / double(frame + 1 - first), "replaying the recording");
-            analysis.frames->read(t, 1, y);
-            chain->update(t, y, statistic);
-        }
-        return chain;
+        Replay replay(analysis, 0, Replay::Of::Paths);
+        replay.seek(std::clamp<Index>(frame + 1 - replay.chain().longestPath(), 0, begin));
+        replay.stepTo(frame + 1, context, "replaying the recording");
+        return replay;
     }
 
     /// Offset between a model's scores in the chain's newest frame and the statistic.
@@ -86,23 +68,16 @@ namespace {
     {
     public:
         Competitors(const Analysis &analysis, std::size_t model)
-            : m_analysis(analysis), m_model(analysis.modelAt(model)), m_chain(makeScoringChain(analysis)),
-              m_number(model), m_y(std::size_t(analysis.grid().size())), m_statistic(m_y.size())
+            : m_analysis(analysis), m_model(analysis.modelAt(model)), m_replay(analysis), m_number(model)
         {
         }
 
         /// Moves to the state before that frame.
         void goTo(Index frame, const RunContext &context)
         {
-            if (m_next == 0)
-                m_next = resumeBefore(*m_chain, m_analysis, frame);
-            for (; m_next < frame; ++m_next) {
-                if (m_next % 64 == 0)
-                    context.checkpoint(double(m_next) / double(frame), "evaluating competing "
-                                                                       "states");
-                m_analysis.frames->read(m_next, 1, m_y);
-                m_chain->update(m_next, m_y, m_statistic);
-            }
+            if (m_replay.next() == 0)
+                m_replay.seek(frame);
+            m_replay.stepTo(frame, context, "evaluating competing states");
         }
 
         struct Ways {
@@ -114,7 +89,7 @@ namespace {
         Ways into(Index state, Index frame) const
         {
             Ways ways;
-            const PathDetector &detector = m_chain->detector();
+            const PathDetector &detector = m_replay.chain().detector();
             const double background = std::max(0.0, -detector.offset(m_number));
             for (const StateSpace::Predecessor &p : m_model.space.predecessors(state, frame)) {
                 const double ln = p.lnProbability * m_model.transitionScale;
@@ -132,15 +107,15 @@ namespace {
         }
 
         /// For the last step.
-        double lnK() const { return m_chain->detector().regulation(m_number).stepLnK; }
+        double lnK() const { return m_replay.chain().detector().regulation(m_number).stepLnK; }
 
     private:
         std::optional<int> forgottenFor(Index cell) const
         {
             const std::vector<Index> place = m_analysis.grid().coordinates(cell);
-            for (const CellBox &box : m_chain->forgotten())
+            for (const CellBox &box : m_replay.chain().forgotten())
                 if (box.contains(m_analysis.grid(), place))
-                    for (const auto &inhibition : m_chain->inhibitions())
+                    for (const auto &inhibition : m_replay.chain().inhibitions())
                         if (inhibition.box.centre == box.centre && inhibition.box.halfWidth == box.halfWidth)
                             return inhibition.track;
             return {};
@@ -148,11 +123,8 @@ namespace {
 
         const Analysis &m_analysis;
         const MarkovModel &m_model;
-        std::unique_ptr<DetectionChain> m_chain;
+        Replay m_replay;
         std::size_t m_number; ///< of the model
-        std::vector<float> m_y;
-        std::vector<float> m_statistic;
-        Index m_next = 0;
     };
 
     /// Determines why the path was reset in its first step, and the margins of the detector's own steps.
@@ -287,18 +259,17 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
     // A tracker's path reaches its beginning only if it keeps all of its history, which changes no score.
     Analysis detailed = analysis;
     detailed.settings.track.smoothingFrames = int(std::min<Index>(frame + 1, 1 << 30));
-    std::vector<float> statistic;
-    auto chain = runTo(detailed, frame, frame, statistic, context.part(0.0, 0.3));
-    PathInto path = pathInto(detailed, *chain, cell);
+    Replay replay = replayTo(detailed, frame, frame, context.part(0.0, 0.3));
+    PathInto path = pathInto(detailed, replay.chain(), cell);
     if (path.isTracked && path.steps.front().frame > path.seedFrame) { // followed for longer than the chain has run
-        chain = runTo(detailed, path.seedFrame, frame, statistic, context.part(0.3, 0.5));
-        path = pathInto(detailed, *chain, cell);
+        replay = replayTo(detailed, path.seedFrame, frame, context.part(0.3, 0.5));
+        path = pathInto(detailed, replay.chain(), cell);
     }
 
     Explanation explanation;
     explanation.seconds = analysis.time().value(double(frame));
     explanation.position = analysis.grid().position(cell);
-    explanation.displayed = double(statistic[std::size_t(cell)]);
+    explanation.displayed = double(replay.statistic()[std::size_t(cell)]);
     explanation.threshold = analysis.threshold;
     explanation.isTracked = path.isTracked;
     explanation.isExplainedByNoise = !tracksThrough(analysis.explainedByNoise, analysis, frame, cell).empty();
@@ -313,16 +284,16 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
     std::size_t ownSteps = path.steps.size(); // the detector's, which precede a tracker's
     explanation.model = path.model;
     explanation.modelChanges = path.modelChanges;
-    explanation.offset = offsetOf(detailed, *chain, path.model);
-    findOther(explanation, detailed, *chain, frame, cell);
-    explanation.inhibitedFor = inhibitedFor(analysis, *chain, frame, cell);
+    explanation.offset = offsetOf(detailed, replay.chain(), path.model);
+    findOther(explanation, detailed, replay.chain(), frame, cell);
+    explanation.inhibitedFor = inhibitedFor(analysis, replay.chain(), frame, cell);
     if (path.isTracked) {
         // Before its tracker was seeded, the path is that of the detector.
         const PathStep seed = path.steps.front();
-        const auto before = runTo(detailed, seed.frame, seed.frame, statistic, context.part(0.5, 0.8));
-        explanation.steps = before->detectorPathInto(seed.state, path.model);
+        const Replay before = replayTo(detailed, seed.frame, seed.frame, context.part(0.5, 0.8));
+        explanation.steps = before.chain().detectorPathInto(seed.state, path.model);
         ownSteps = explanation.steps.size();
-        explanation.offset = offsetOf(detailed, *before, path.model);
+        explanation.offset = offsetOf(detailed, before.chain(), path.model);
         explanation.steps.insert(explanation.steps.end(), path.steps.begin() + 1, path.steps.end());
     }
     findCompetitors(explanation, analysis, ownSteps, context.part(0.8, 1.0));

@@ -16,10 +16,11 @@ namespace {
 } // namespace
 
 LayerReplay::LayerReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget)
-    : m_replay(std::move(analysis), byteBudget / 2), m_checkpoints(m_replay.interval(), byteBudget / 2)
+    : m_analysis(std::move(analysis)), m_replay(*m_analysis, byteBudget / 2),
+      m_checkpoints(m_replay.interval(), byteBudget / 2)
 {
-    for (std::size_t model = 0; model < this->analysis()->modelCount(); ++model) {
-        m_models.push_back(this->analysis()->modelAt(model));
+    for (std::size_t model = 0; model < m_analysis->modelCount(); ++model) {
+        m_models.push_back(m_analysis->modelAt(model));
         m_ages.states.emplace_back(std::size_t(m_models.back().space.stateCount()));
     }
     m_before.resize(m_models.size());
@@ -34,7 +35,7 @@ LayerReplay::LayerReplay(std::shared_ptr<const Analysis> analysis, std::size_t b
 
 const CellLayers &LayerReplay::at(Index frame, const RunContext &context, const Cells &aged)
 {
-    frame = std::clamp<Index>(frame, 0, analysis()->time().count - 1);
+    frame = std::clamp<Index>(frame, 0, m_analysis->time().count - 1);
     const Index lookback = aged.end - aged.begin > 1 ? ageOfSome : 0;
     const bool isOnItsWay = m_now >= 0 && m_now < frame && frame - m_now < lookback;
     if (frame != m_now)
@@ -90,9 +91,9 @@ std::vector<float> LayerReplay::scoresBefore(std::size_t model) const
     const PathDetector &detector = m_replay.chain().detector();
     std::vector<float> scores(detector.scores(model).begin(), detector.scores(model).end());
     const auto background = std::max(0.0f, float(-detector.offset(model)));
-    const Index cells = analysis()->grid().size();
+    const Index cells = m_analysis->grid().size();
     for (const CellBox &box : m_replay.chain().forgotten())
-        box.forEachCell(analysis()->grid(), [&](Index cell) {
+        box.forEachCell(m_analysis->grid(), [&](Index cell) {
             for (auto state = std::size_t(cell); state < scores.size(); state += std::size_t(cells))
                 scores[state] = std::min(scores[state], background);
         });
@@ -239,7 +240,7 @@ void LayerReplay::followTrackers()
 void LayerReplay::project(std::span<const float> statistic)
 {
     const DetectionChain &chain = m_replay.chain();
-    const auto cells = std::size_t(analysis()->grid().size());
+    const auto cells = std::size_t(m_analysis->grid().size());
     std::copy(statistic.begin(), statistic.end(), m_layers.statistic.begin());
     std::fill(m_layers.isInhibited.begin(), m_layers.isInhibited.end(), '\0');
     for (std::size_t cell = 0; cell < cells; ++cell)
@@ -269,7 +270,7 @@ void LayerReplay::project(std::span<const float> statistic)
             const auto cell = std::size_t(state) % cells;
             const auto [shown, isFirst] = followed.try_emplace(cell);
             if (isFirst)
-                shown->second = double(shownScore(*analysis(), chain, m_layers.model[cell], best[cell]));
+                shown->second = double(shownScore(*m_analysis, chain, m_layers.model[cell], best[cell]));
             Index candidate = 0;
             if (const double score = tracker.scoreAt(Index(cell), &candidate);
                 candidate == state && score > shown->second) {
@@ -281,8 +282,8 @@ void LayerReplay::project(std::span<const float> statistic)
             }
         }
     for (const auto &[track, box] : chain.inhibitions())
-        if (track == 0 || analysis()->settings.decide.inhibits) // 0: where no signal is looked for
-            box.forEachCell(analysis()->grid(), [&](Index cell) { m_layers.isInhibited[std::size_t(cell)] = 1; });
+        if (track == 0 || m_analysis->settings.decide.inhibits) // 0: where no signal is looked for
+            box.forEachCell(m_analysis->grid(), [&](Index cell) { m_layers.isInhibited[std::size_t(cell)] = 1; });
 }
 
 } // namespace faintline

@@ -3,7 +3,7 @@
 #include "base/Checkpoints.h"
 #include "base/FramePlane.h"
 #include "base/memoryShares.h"
-#include "inspect/ChainReplay.h"
+#include "inspect/Replay.h"
 
 #include <array>
 #include <cstdint>
@@ -41,14 +41,14 @@ struct CellLayers {
 ///
 /// It begins at a checkpoint of the run, where no path's age is known; a path that was reset since then has a known
 /// age. While requested ages are unknown it restarts twice as far back. Cost: the detector's and several times that per
-/// frame, over at most twice the age of the oldest requested path and an interval of checkpoints (ChainReplay). Use one
+/// frame, over at most twice the age of the oldest requested path and an interval of checkpoints (Replay). Use one
 /// object per thread.
 class LayerReplay
 {
 public:
     explicit LayerReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget = memoryShares::layerReplay);
 
-    const std::shared_ptr<const Analysis> &analysis() const { return m_replay.analysis(); }
+    const std::shared_ptr<const Analysis> &analysis() const { return m_analysis; }
 
     struct Cells {
         Index begin = 0;
@@ -88,7 +88,8 @@ private:
     void project(std::span<const float> statistic);
     static void move(const MarkovModel &model, std::size_t axis, Index step, const Paths &from, Paths &to);
 
-    ChainReplay m_replay;
+    std::shared_ptr<const Analysis> m_analysis;
+    Replay m_replay;
     Index m_now = -1; ///< frame of the ages and layers; -1: none
     std::vector<MarkovModel> m_models;
     Ages m_ages;

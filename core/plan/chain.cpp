@@ -178,12 +178,6 @@ std::unique_ptr<DetectionChain> makeChain(const AnalysisPlan &plan)
     return makeChain(plan, makePathDetector(plan, true));
 }
 
-std::unique_ptr<DetectionChain> makeScoringChain(const AnalysisPlan &plan)
-{
-    constexpr bool looksBack = false;
-    return makeChain(plan, makePathDetector(plan, true), looksBack);
-}
-
 std::vector<CellBox> excludedBoxes(const AnalysisPlan &plan)
 {
     const ChainSettings settings = chainSettings(plan);

@@ -15,8 +15,6 @@ std::size_t bytesOfStates(const AnalysisPlan &plan);
 
 /// The detection chain of a plan, at its first frame.
 std::unique_ptr<DetectionChain> makeChain(const AnalysisPlan &plan);
-/// The same without tracing tracks back to their onset, for callers that only need scores.
-std::unique_ptr<DetectionChain> makeScoringChain(const AnalysisPlan &plan);
 
 /// The plan's detector, or bank of detectors, at its first frame.
 std::unique_ptr<Detector> makeDetector(const AnalysisPlan &plan);
