@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/base/Inquiry.h"
-#include "inspect/channelPicture.h"
+#include "inspect/closeup.h"
 
 #include <QWidget>
 

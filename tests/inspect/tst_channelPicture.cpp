@@ -1,4 +1,4 @@
-#include "inspect/channelPicture.h"
+#include "inspect/closeup.h"
 #include "support/test.h"
 
 #include "analyse/analyse.h"
