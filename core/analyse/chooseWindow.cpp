@@ -354,30 +354,30 @@ std::shared_ptr<const Analysis> runInChosenWindow(const RecordingPointer &record
 
 namespace {
 
-    struct Range {
+    struct Extent {
         double low;
         double high;
 
-        bool meets(const Range &other, double margin) const
+        bool meets(const Extent &other, double margin) const
         {
             return low <= other.high + margin && other.low <= high + margin;
         }
     };
 
     /// A track in seconds and hertz.
-    struct Curve {
+    struct TrackCurve {
         const Track *track;
         const Axis *time;
         std::vector<double> hz;
-        Range seconds;
-        Range band;
+        Extent seconds;
+        Extent band;
 
         double secondsAt(std::size_t i) const { return time->value(double(track->points[i].frame)); }
 
         /// Range of frequencies within a frame of that time.
-        Range around(double at) const
+        Extent around(double at) const
         {
-            Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+            Extent range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
             const double frame = (at - seconds.low) / time->step;
             for (const double shift : {-1.0, 0.0, 1.0}) {
                 const double place = std::clamp(frame + shift, 0.0, double(hz.size() - 1));
@@ -390,13 +390,13 @@ namespace {
         }
     };
 
-    std::vector<Curve> curvesOf(const TracksOnAxes &all)
+    std::vector<TrackCurve> curvesOf(const TracksOnAxes &all)
     {
-        std::vector<Curve> curves;
+        std::vector<TrackCurve> curves;
         for (const Track &track : all.tracks) {
             if (track.smoothed.empty())
                 continue;
-            Curve curve{&track, &all.time, {}, {}, {}};
+            TrackCurve curve{&track, &all.time, {}, {}, {}};
             for (const SmoothedPoint &point : track.smoothed)
                 curve.hz.push_back(all.frequency.value(point.position));
             const auto [low, high] = std::minmax_element(curve.hz.begin(), curve.hz.end());
@@ -408,10 +408,10 @@ namespace {
     }
 
     /// Σ r of all curves near a path.
-    double energyNear(const Curve &path, const std::vector<Curve> &curves, double marginHz)
+    double energyNear(const TrackCurve &path, const std::vector<TrackCurve> &curves, double marginHz)
     {
         double sum = 0.0;
-        for (const Curve &curve : curves) {
+        for (const TrackCurve &curve : curves) {
             const double marginSeconds = std::max(path.time->step, curve.time->step);
             if (!curve.seconds.meets(path.seconds, marginSeconds) || !curve.band.meets(path.band, marginHz))
                 continue;
@@ -444,10 +444,10 @@ namespace {
 
 double energyKept(const TracksOnAxes &shorter, const TracksOnAxes &longer, double leastStatistic)
 {
-    const std::vector<Curve> ofShorter = curvesOf(shorter);
-    const std::vector<Curve> ofLonger = curvesOf(longer);
+    const std::vector<TrackCurve> ofShorter = curvesOf(shorter);
+    const std::vector<TrackCurve> ofLonger = curvesOf(longer);
     std::vector<std::pair<double, double>> shares;
-    for (const Curve &path : ofShorter) {
+    for (const TrackCurve &path : ofShorter) {
         if (path.track->peakStatistic < leastStatistic)
             continue;
         const double kept = energyNear(path, ofLonger, shorter.cellHz);

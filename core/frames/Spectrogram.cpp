@@ -232,9 +232,9 @@ double Spectrogram::automaticWindowSeconds(const RecordingInfo &info)
     double chosen = decade * (mantissa < 1.5 ? 1.0 : mantissa < 3.5 ? 2.0 : mantissa < 7.5 ? 5.0 : 10.0);
     // At least 16 samples, so that a spectrum exists; at most a quarter of the recording, and limited by memory.
     constexpr double windowMinimumSamples = 16.0;
-    constexpr double most = 4e6;
+    constexpr double automaticLimitSamples = 4e6;
     const double least = windowMinimumSamples / info.sampleRateHz;
-    chosen = std::clamp(chosen, least, most / info.sampleRateHz);
+    chosen = std::clamp(chosen, least, automaticLimitSamples / info.sampleRateHz);
     if (info.places.hasGaps()) // frames that reach into gaps are lost: a quarter of a stretch's at most
         chosen = std::min(chosen, std::max(double(info.places.typicalCount()) / info.sampleRateHz / 4.0, least));
     return std::min(chosen, std::max(info.durationSeconds() / 4.0, 1.0 / info.sampleRateHz));
@@ -242,11 +242,11 @@ double Spectrogram::automaticWindowSeconds(const RecordingInfo &info)
 
 Spectrogram::Steps Spectrogram::stepsOf(const SpectrogramSettings &settings, const RecordingInfo &info)
 {
-    constexpr double most = 1e8; // longer windows are rejected where they are created
+    constexpr double limitSamples = 1e8; // longer windows are rejected where they are created
     const double wanted =
         (settings.windowSeconds > 0.0 ? settings.windowSeconds : automaticWindowSeconds(info)) * info.sampleRateHz;
-    const int samples = int(std::llround(std::clamp(wanted * settings.binsPerCell, 2.0 * settings.binsPerCell, most)
-                                         / settings.binsPerCell));
+    const int samples = int(std::llround(
+        std::clamp(wanted * settings.binsPerCell, 2.0 * settings.binsPerCell, limitSamples) / settings.binsPerCell));
     return {hopOf(samples, settings) / info.sampleRateHz,
             info.sampleRateHz / Fft::fastLength(samples * settings.binsPerCell)};
 }

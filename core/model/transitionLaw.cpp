@@ -29,15 +29,15 @@ namespace {
 
     double meanRice(const Likelihood &likelihood, double snr)
     {
-        constexpr double reach = 7.0; // in amplitude, whose standard deviation is at most √½
+        constexpr double amplitudeReach = 7.0; // in amplitude, whose standard deviation is at most √½
         const double centre = std::sqrt(snr);
-        return meanOverAmplitude(likelihood, snr, std::max(0.0, centre - reach), centre + reach);
+        return meanOverAmplitude(likelihood, snr, std::max(0.0, centre - amplitudeReach), centre + amplitudeReach);
     }
 
     double meanSwerling4(const Likelihood &likelihood, double snr)
     {
-        constexpr double reach = 7.0; // y falls as e^(-y/(1 + snr/2))
-        return meanOverAmplitude(likelihood, snr, 0.0, reach * std::sqrt(1.0 + 0.5 * snr));
+        constexpr double amplitudeReach = 7.0; // y falls as e^(-y/(1 + snr/2))
+        return meanOverAmplitude(likelihood, snr, 0.0, amplitudeReach * std::sqrt(1.0 + 0.5 * snr));
     }
 
 } // namespace

@@ -21,12 +21,12 @@ namespace {
 
     Moves movesOf(const StateSpace &space, Index phase)
     {
-        constexpr std::size_t most = std::size_t(1) << 27;
+        constexpr std::size_t transitionLimit = std::size_t(1) << 27;
         Moves result;
         for (Index n = 0; n < space.stateCount(); ++n) {
             for (const StateSpace::Predecessor &p : space.predecessors(n, phase))
                 result.moves.push_back({p.state, n, p.lnProbability});
-            if (result.moves.size() > most)
+            if (result.moves.size() > transitionLimit)
                 throw Error("law", "gives more than 2²⁷ transitions per frame; use fewer cells or rates");
         }
         return result;

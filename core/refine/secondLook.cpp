@@ -43,7 +43,7 @@ namespace {
     };
 
     /// Result of a stretch, or of several that were separated by the cuts between pieces.
-    struct Candidate {
+    struct StretchResult {
         Track track;
         std::vector<ExplainedSignal> signals;
         double gain;
@@ -485,7 +485,7 @@ namespace {
                 m_candidates.push_back({std::move(track), {std::move(signal)}, stretch.gain, stretch.evidence});
                 return;
             }
-            Candidate &before = m_candidates.back();
+            StretchResult &before = m_candidates.back();
             if (holds(stretch, piece.track->detectFrame - piece.strip.firstFrame))
                 before.track.detectFrame = track.detectFrame;
             before.track.endFrame = track.endFrame;
@@ -500,8 +500,9 @@ namespace {
         /// Accepts the stretch of a track with the largest gain, and all others with sufficient evidence of their own.
         void accept()
         {
-            const auto best = std::max_element(m_candidates.begin(), m_candidates.end(),
-                                               [](const Candidate &a, const Candidate &b) { return a.gain < b.gain; });
+            const auto best =
+                std::max_element(m_candidates.begin(), m_candidates.end(),
+                                 [](const StretchResult &a, const StretchResult &b) { return a.gain < b.gain; });
             for (auto candidate = m_candidates.begin(); candidate != m_candidates.end(); ++candidate) {
                 if (candidate != best && candidate->evidence < m_analysis.threshold)
                     continue;
@@ -595,7 +596,7 @@ namespace {
         FrameGeometry m_geometry;
         Explanations m_explanations;
         BothWaysModel m_model;
-        std::vector<Candidate> m_candidates; ///< for the current track
+        std::vector<StretchResult> m_candidates; ///< for the current track
         std::vector<Track> m_tracks;
         std::vector<Area> m_areas;
     };

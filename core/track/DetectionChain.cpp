@@ -123,7 +123,7 @@ void DetectionChain::remember(Index frame, Seen seen)
         return;
     // Checkpoints before the recorded frames are useless. The oldest one's memory is reused, because new pages cost as
     // much as writing to them.
-    Checkpoint checkpoint;
+    KeptScores checkpoint;
     if (!m_checkpoints.empty()
         && (m_checkpoints.size() == m_checkpointLimit || m_checkpoints.front().frame < m_firstSeen)) {
         checkpoint = std::move(m_checkpoints.front());
@@ -274,7 +274,7 @@ RecursionRecord DetectionChain::record(std::size_t model) const
     result.forgotten = [at](Index frame) { return std::span<const CellBox>(at(frame).forgotten); };
     result.checkpoint = [this, model](Index before) {
         const auto latest = std::find_if(m_checkpoints.rbegin(), m_checkpoints.rend(),
-                                         [before](const Checkpoint &checkpoint) { return checkpoint.frame < before; });
+                                         [before](const KeptScores &checkpoint) { return checkpoint.frame < before; });
         return latest == m_checkpoints.rend() ? RecursionRecord::Checkpoint{}
                                               : RecursionRecord::Checkpoint{latest->frame, latest->scores[model]};
     };

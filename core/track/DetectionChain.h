@@ -136,7 +136,7 @@ private:
     };
 
     /// Scores of all states after a frame.
-    struct Checkpoint {
+    struct KeptScores {
         Index frame;
         std::vector<std::vector<float>> scores; ///< for each model
     };
@@ -172,7 +172,7 @@ private:
     std::deque<Seen> m_seen;
     Index m_firstSeen = 0;
     std::size_t m_seenLimit;
-    std::deque<Checkpoint> m_checkpoints;
+    std::deque<KeptScores> m_checkpoints;
     std::size_t m_checkpointLimit;
     int m_nextId = 1;
     std::vector<float> m_lambda;

@@ -23,10 +23,10 @@ struct TrackPoint {
 template <class Lambda>
 void measureOffsets(std::vector<TrackPoint> &path, std::size_t count, Lambda lambda)
 {
-    constexpr std::size_t reach = 8;
+    constexpr std::size_t fittedPoints = 8;
     for (std::size_t i = 0; i < count; ++i) {
         double sums[3] = {};
-        for (std::size_t j = i - std::min(i, reach); j < std::min(path.size(), i + reach + 1); ++j)
+        for (std::size_t j = i - std::min(i, fittedPoints); j < std::min(path.size(), i + fittedPoints + 1); ++j)
             for (Index d = -1; d <= 1; ++d)
                 sums[d + 1] += double(lambda(j, path[j].cell + d));
         const double curvature = sums[0] - 2.0 * sums[1] + sums[2];

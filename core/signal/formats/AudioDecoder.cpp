@@ -78,11 +78,11 @@ namespace {
         /// A header with the true length of the samples and only the named chunks.
         std::vector<std::byte> headerWith(std::span<const std::string_view> names) const
         {
-            constexpr Index largest = Index(1) << 20;
+            constexpr Index chunkLimitBytes = Index(1) << 20;
             std::vector<std::byte> kept;
             for (const WavChunk &chunk : m_chunks) {
                 const bool isList = chunk.name == "LIST" || chunk.name == "INFO";
-                if (std::find(names.begin(), names.end(), chunk.name) == names.end() || chunk.length > largest
+                if (std::find(names.begin(), names.end(), chunk.name) == names.end() || chunk.length > chunkLimitBytes
                     || (isList && leadsBackwards(m_file, chunk.offset - chunkHeadBytes)))
                     continue;
                 append(kept, chunk.name, std::uint64_t(chunk.length), 4);
@@ -410,8 +410,8 @@ std::vector<std::byte> AudioDecoder::chunk(std::string_view id) const
     std::copy_n(id.data(), std::min(id.size(), sizeof info.id), info.id);
     info.id_size = unsigned(id.size());
     SF_CHUNK_ITERATOR *iterator = sf_get_chunk_iterator(m_handle, &info);
-    constexpr unsigned largest = 1 << 20;
-    if (!iterator || sf_get_chunk_size(iterator, &info) != SF_ERR_NO_ERROR || info.datalen > largest)
+    constexpr unsigned chunkLimitBytes = 1 << 20;
+    if (!iterator || sf_get_chunk_size(iterator, &info) != SF_ERR_NO_ERROR || info.datalen > chunkLimitBytes)
         return {};
     std::vector<std::byte> bytes(info.datalen);
     info.data = bytes.data();
