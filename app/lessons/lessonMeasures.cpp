@@ -64,12 +64,6 @@ namespace {
         return values.empty() ? 0.0 : std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
     }
 
-    double windowSeconds(const Analysis &analysis)
-    {
-        const Spectrogram *spectrogram = analysis.frames->spectrogram();
-        return spectrogram ? spectrogram->windowSeconds() : analysis.time().step;
-    }
-
     double shareAboveTwice(const Analysis &analysis)
     {
         constexpr Index mostFrames = 256;
@@ -210,7 +204,8 @@ namespace {
              [](WindowParts &window) -> Value { return window.document().viewport().frequency().width(); }},
             {"frameSeconds", ofAnalysis([](const Analysis &analysis) { return analysis.time().step; })},
             {"binHz", ofAnalysis([](const Analysis &analysis) { return analysis.grid().axes.front().step; })},
-            {"windowSeconds", ofAnalysis(windowSeconds)},
+            {"windowSeconds",
+             ofAnalysis([](const Analysis &analysis) { return analysis.frames->geometry().windowSeconds; })},
             {"aboveTwice", ofAnalysis(shareAboveTwice)},
             {"threshold", [](WindowParts &window) -> Value { return window.document().shownThreshold(); }},
             {"events", [](WindowParts &window) -> Value { return double(window.document().shownEvents().size()); }},

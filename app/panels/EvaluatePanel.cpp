@@ -4,7 +4,6 @@
 #include "app/panels/ExperimentForm.h"
 #include "app/panels/StartColumn.h"
 #include "evaluate/experiments/campaignCharts.h"
-#include "frames/Spectrogram.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 #include "widgets/plot/ChartPlot.h"
@@ -103,11 +102,10 @@ void EvaluatePanel::followDocument()
 {
     double windowSeconds = 0.0;
     double recordingSeconds = 0.0;
-    if (const auto &analysis = m_document.analysis(); analysis && analysis->recording)
-        if (const Spectrogram *spectrogram = analysis->frames->spectrogram()) {
-            windowSeconds = spectrogram->windowSeconds();
-            recordingSeconds = double(analysis->time().count) * analysis->time().step;
-        }
+    if (const auto &analysis = m_document.analysis(); analysis && analysis->recording) {
+        windowSeconds = analysis->frames->geometry().windowSeconds;
+        recordingSeconds = double(analysis->time().count) * analysis->time().step;
+    }
     m_form->setCurrent(m_document.usedSettings(), windowSeconds, recordingSeconds);
 }
 

@@ -94,8 +94,7 @@ namespace {
             return describeReadyFrames(rows, analysis);
         const Axis &frequency = analysis.grid().axes.back();
         rows.heading(tr("Spectra"));
-        if (const Spectrogram *spectrogram = analysis.frames->spectrogram())
-            rows.row(tr("Window T_FT"), tr("%1 s").arg(spectrogram->windowSeconds(), 0, 'g', 4));
+        rows.row(tr("Window T_FT"), tr("%1 s").arg(analysis.frames->geometry().windowSeconds, 0, 'g', 4));
         rows.row(tr("Frames"), tr("%1, every %2 s").arg(analysis.time().count).arg(analysis.time().step, 0, 'g', 4));
         rows.row(tr("Bins"), tr("%1, every %2 Hz").arg(frequency.count).arg(frequency.step, 0, 'g', 4));
         if (const std::string words = subtractionWords(analysis); !words.empty())

@@ -221,10 +221,10 @@ void PipelinePanel::showNotes()
     if (analysis.choice)
         m_choice = analysis.choice;
     showWindows();
-    if (const Spectrogram *spectrogram = analysis.frames->spectrogram())
+    if (const FrameGeometry geometry = analysis.frames->geometry(); geometry.isOfSpectra())
         m_form->setNote(QStringLiteral("spectrogram.windowSeconds"),
                         analysis.choice ? QString::fromStdString(windowChoiceWords(*analysis.choice))
-                                        : tr("%1 s").arg(spectrogram->windowSeconds(), 0, 'g', 4));
+                                        : tr("%1 s").arg(geometry.windowSeconds, 0, 'g', 4));
     const ModelSettings &used = analysis.settings.model;
     if (!analysis.choice || used == m_document.analysedSettings().model)
         return;

@@ -69,10 +69,8 @@ void SweepPanel::buildCharts()
 
 void SweepPanel::followDocument()
 {
-    double windowSeconds = 0.0;
-    if (const auto &analysis = m_document.analysis(); analysis && analysis->recording)
-        if (const Spectrogram *spectrogram = analysis->frames->spectrogram())
-            windowSeconds = spectrogram->windowSeconds();
+    const auto &analysis = m_document.analysis();
+    const double windowSeconds = analysis && analysis->recording ? analysis->frames->geometry().windowSeconds : 0.0;
     m_form->setCurrent(m_document.usedSettings(), m_document.recording() ? m_document.sourcePath() : QString(),
                        windowSeconds);
 }

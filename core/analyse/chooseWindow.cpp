@@ -35,8 +35,7 @@ namespace {
 
     double resolutionHz(const Analysis &analysis)
     {
-        const Spectrogram &spectrogram = *analysis.frames->spectrogram();
-        return spectrogram.recording().info().sampleRateHz / spectrogram.windowSamples();
+        return analysis.recording->info().sampleRateHz / analysis.frames->geometry().windowSamples;
     }
 
     double windowSecondsOf(const Analysis &analysis)

@@ -106,7 +106,7 @@ RareRates followTail(const AnalysisPlan &plan, const CalibrationEffort &effort, 
     if (model.space.axes().size() > 1 || !model.space.axes().front().transition.empty())
         return {};
     KinematicAxis axis = model.space.axes().front();
-    const bool isSpectral = plan.frames->spectrogram() != nullptr;
+    const bool isSpectral = plan.frames->geometry().isOfSpectra();
     const Index independentCells = std::max<Index>(pieceCells, 8 * axis.largestDisplacement() + 1);
     const std::function<std::unique_ptr<NoiseStream>()> makeNoise = [&] {
         return isSpectral ? noiseOf(settings, effort.pieceWindowSamples) : independentNoise(independentCells);

@@ -15,6 +15,8 @@ FrameGeometry NormalisedFrames::geometry() const
         geometry.binsPerCell = of->binsPerCell();
         geometry.window = of->settings().window;
         geometry.windowSeconds = of->windowSeconds();
+        geometry.windowSamples = of->windowSamples();
+        geometry.hasRealEnds = of->hasRealEnds();
     }
     return geometry;
 }

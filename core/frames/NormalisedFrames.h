@@ -20,6 +20,10 @@ struct FrameGeometry {
     Index blockPhase = 0;
     WindowShape window = WindowShape::Hann;
     double windowSeconds = 0.0; ///< T_FT
+    int windowSamples = 0;      ///< the same in samples; 0: frames that are no spectra of a recording
+    bool hasRealEnds = false;   ///< Spectrogram::hasRealEnds
+
+    bool isOfSpectra() const { return windowSamples > 0; }
 };
 
 /// Frames whose noise has mean 1 in every cell: the only input of a detector.

@@ -187,8 +187,8 @@ std::optional<Advice> adviceOnCell(const Analysis &analysis, const Explanation &
 {
     const bool isFound =
         explanation.isTracked || explanation.displayed >= explanation.threshold || explanation.otherWindowTrack;
-    if (isFound || explanation.inhibitedFor || explanation.isExplainedByNoise || !analysis.frames->spectrogram()
-        || !analysis.settings.family.isNone())
+    if (isFound || explanation.inhibitedFor || explanation.isExplainedByNoise
+        || !analysis.frames->geometry().isOfSpectra() || !analysis.settings.family.isNone())
         return {};
     if (auto fast = adviceOnFastLine(analysis, explanation, context))
         return fast;

@@ -3,7 +3,6 @@
 #include "analyse/events.h"
 #include "base/numberText.h"
 #include "base/oneLine.h"
-#include "frames/Spectrogram.h"
 #include "plan/sureStatistic.h"
 
 #include <algorithm>
@@ -128,8 +127,8 @@ namespace {
 
 std::optional<Advice> adviceOnCloseLines(const Analysis &analysis)
 {
-    const Spectrogram *spectrogram = analysis.frames->spectrogram();
-    if (!spectrogram)
+    const FrameGeometry geometry = analysis.frames->geometry();
+    if (!geometry.isOfSpectra())
         return {};
     const Axis &axis = analysis.grid().axes.back();
     const double binsPerCell = analysis.settings.spectrogram.binsPerCell;
@@ -138,7 +137,7 @@ std::optional<Advice> adviceOnCloseLines(const Analysis &analysis)
     if (close.count == 0 || close.bins == 0.0)
         return {};
     const double factor = wantedCells * binsPerCell / close.bins;
-    const double seconds = factor * spectrogram->windowSeconds();
+    const double seconds = factor * geometry.windowSeconds;
     const double duration = double(analysis.time().count) * analysis.time().step;
     const bool isTooFast = steepestOf(tracks, axis) * factor * factor > steepestAllowed(analysis.model.space);
     if (seconds * windowsInRecording > duration || isTooFast || isAsked(analysis, seconds))

@@ -2,7 +2,6 @@
 
 #include "analyse/events.h"
 #include "base/driftWords.h"
-#include "frames/Spectrogram.h"
 #include "plan/sureStatistic.h"
 
 #include <algorithm>
@@ -60,9 +59,9 @@ double steepestSlope(const StateSpace &space)
 
 std::optional<Advice> adviceOnSlopes(const Analysis &analysis)
 {
-    const Spectrogram *spectrogram = analysis.frames->spectrogram();
+    const FrameGeometry geometry = analysis.frames->geometry();
     const double steepest = steepestSlope(analysis.model.space);
-    if (!spectrogram || steepest == 0.0 || isAsked(analysis, spectrogram->windowSeconds() / 2.0))
+    if (!geometry.isOfSpectra() || steepest == 0.0 || isAsked(analysis, geometry.windowSeconds / 2.0))
         return {};
     const int fast = tracksAt(steepest, analysis);
     if (fast == 0)
@@ -74,7 +73,7 @@ std::optional<Advice> adviceOnSlopes(const Analysis &analysis)
                       + "; lines that drift faster are lost or cut",
                   {},
                   analysis.settings};
-    setWindow(advice, spectrogram->windowSeconds() / 2.0);
+    setWindow(advice, geometry.windowSeconds / 2.0);
     return advice;
 }
 

@@ -187,8 +187,8 @@ namespace {
     std::vector<const Track *> tracksThrough(const std::vector<Track> &tracks, const Analysis &analysis, Index frame,
                                              Index cell)
     {
-        const Spectrogram *spectrogram = analysis.frames->spectrogram();
-        const auto near = spectrogram ? Index(std::ceil(spectrogram->binsPerCell())) : 0;
+        const FrameGeometry geometry = analysis.frames->geometry();
+        const auto near = geometry.isOfSpectra() ? Index(std::ceil(geometry.binsPerCell)) : 0;
         std::vector<const Track *> through;
         for (const Track &track : tracks)
             if (std::any_of(track.points.begin(), track.points.end(), [&](const TrackPoint &point) {

@@ -1,7 +1,6 @@
 #include "inspect/familyTeeth.h"
 
 #include "base/Error.h"
-#include "frames/Spectrogram.h"
 #include "frames/familyMembers.h"
 
 #include <algorithm>
@@ -29,7 +28,7 @@ namespace {
         explicit MemberReader(const Analysis &analysis)
             : m_family(familyOrLine(analysis.settings.family)), m_axis(analysis.grid().axes.back()),
               m_channels(analysis.lines),
-              m_innerOnly(!analysis.settings.family.isNone() && analysis.frames->spectrogram()->hasRealEnds())
+              m_innerOnly(!analysis.settings.family.isNone() && analysis.frames->geometry().hasRealEnds)
         {
         }
 

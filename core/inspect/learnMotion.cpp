@@ -22,11 +22,6 @@ namespace {
     constexpr int learningIterations = 3;
     constexpr std::size_t mostLearnedFrames = 20'000;
 
-    const Spectrogram &spectrogramOf(const Analysis &analysis)
-    {
-        return *analysis.frames->spectrogram();
-    }
-
     std::vector<const Track *> tracksToLearnFrom(const Analysis &analysis)
     {
         std::vector<const Track *> tracks;
@@ -50,7 +45,7 @@ namespace {
         for (const Track *track : tracks) {
             PathStrip strip;
             strip.firstFrame = track->points.front().frame;
-            strip.halfWidth = bothWaysHalfWidth(spectrogramOf(analysis).binsPerCell());
+            strip.halfWidth = bothWaysHalfWidth(analysis.frames->geometry().binsPerCell);
             for (std::size_t i = 0; i < std::min(mostLearnedFrames, track->points.size()); ++i)
                 strip.centres.push_back(Index(std::lround(track->smoothed[i].position)));
             strips.push_back(std::move(strip));
@@ -96,7 +91,7 @@ namespace {
 bool canLearnMotion(const Analysis &analysis)
 {
     return analysis.grid().isSpectrum() && analysis.settings.model.motion == Motion::Slopes
-           && analysis.settings.model.slopeChange.size() > 1 && analysis.frames->spectrogram()
+           && analysis.settings.model.slopeChange.size() > 1 && analysis.frames->geometry().isOfSpectra()
            && !tracksToLearnFrom(analysis).empty();
 }
 
@@ -121,7 +116,7 @@ LearnedMotion learnMotion(const Analysis &analysis, const RunContext &context)
     motion.frames = std::accumulate(changes.begin(), changes.end(), 0.0);
     motion.presentLnK = analysis.calibration->lnK;
     const AnalysisSettings settings = withLearnedMotion(analysis, motion);
-    const auto calibration = calibrateBand(settings, spectrogramOf(analysis), context.part(0.8, 1.0));
+    const auto calibration = calibrateBand(settings, *analysis.frames->spectrogram(), context.part(0.8, 1.0));
     motion.learnedLnK = calibration->lnK;
     motion.presentThreshold = analysis.threshold;
     motion.learnedThreshold = thresholdNats(settings.decide, *calibration, analysis.cellFramesPerHour);
@@ -135,7 +130,7 @@ LearnedMotion learnMotion(const Analysis &analysis, const RunContext &context)
 AnalysisSettings withLearnedMotion(const Analysis &analysis, const LearnedMotion &motion)
 {
     AnalysisSettings settings = analysis.settings;
-    settings.spectrogram.windowSeconds = spectrogramOf(analysis).windowSeconds();
+    settings.spectrogram.windowSeconds = analysis.frames->geometry().windowSeconds;
     settings.model.slopeChange = motion.learned;
     return settings;
 }

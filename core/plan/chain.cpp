@@ -3,7 +3,6 @@
 #include "base/logmath.h"
 #include "detect/GuidedDetector.h"
 #include "detect/ModelBank.h"
-#include "frames/Spectrogram.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,16 +30,14 @@ namespace {
 
     /// Bins over which a line of power y leaks more than half the noise into its neighbours, by the window's side
     /// lobes.
-    std::function<Index(double)> leakageExtentOf(const Spectrogram &spectrogram)
+    std::function<Index(double)> leakageExtentOf(const FrameGeometry &geometry, Index cells)
     {
         constexpr int largestDb = 140;
         std::vector<Index> bins;
         Index reach = 0;
         for (int db = 0; db <= largestDb; ++db) {
-            while (ratioFromDb(db)
-                           * leakageBound(spectrogram.settings().window, double(reach) / spectrogram.binsPerCell())
-                       > 0.5
-                   && reach < spectrogram.frequency().count)
+            while (ratioFromDb(db) * leakageBound(geometry.window, double(reach) / geometry.binsPerCell) > 0.5
+                   && reach < cells)
                 ++reach;
             bins.push_back(reach);
         }
@@ -51,18 +48,17 @@ namespace {
 
     /// The ends of a real recording's spectrum, where a line does not have its usual statistics. None for a selected
     /// band, nor for a family, which omits members there.
-    std::vector<std::vector<Index>> excludedPlaces(const Spectrogram &spectrogram, const FamilySettings &family,
-                                                   Index inhibitBins)
+    std::vector<std::vector<Index>> excludedPlaces(const FrameGeometry &geometry, Index bins,
+                                                   const FamilySettings &family, Index inhibitBins)
     {
-        const Index bins = spectrogram.frequency().count;
-        if (!spectrogram.hasRealEnds() || !family.isNone() || bins < 8 * inhibitBins)
+        if (!geometry.hasRealEnds || !family.isNone() || bins < 8 * inhibitBins)
             return {};
         return {{0}, {bins - 1}};
     }
 
     FrameGeometry geometryOf(const AnalysisPlan &plan)
     {
-        return plan.frames->spectrogram() ? frameGeometry(plan.settings.spectrogram) : FrameGeometry{};
+        return plan.frames->geometry().isOfSpectra() ? frameGeometry(plan.settings.spectrogram) : FrameGeometry{};
     }
 
     /// Level at which an excursion ends. Path scores, in nats, are forgotten down to 8 nat below the threshold: paths
@@ -87,17 +83,18 @@ namespace {
             chain.trackThreshold = settings.track.endNats;
         chain.linkCells = perAxis(settings.decide.linkCells, plan.grid());
         chain.track = settings.track;
-        double binsPerCell = 1.0;
+        const FrameGeometry geometry = plan.frames->geometry();
         const auto inBins = [&](std::vector<double> cells) {
             for (double &value : cells)
-                value = std::ceil(value * binsPerCell);
+                value = std::ceil(value * geometry.binsPerCell);
             return perAxis(cells, plan.grid());
         };
-        if (const Spectrogram *spectrogram = plan.frames->spectrogram()) {
-            binsPerCell = spectrogram->binsPerCell();
-            chain.leakageExtent = leakageExtentOf(*spectrogram);
-            chain.skirtStep = Index(std::ceil(binsPerCell));
-            chain.excluded = excludedPlaces(*spectrogram, settings.family, inBins(settings.decide.inhibitCells).back());
+        if (geometry.isOfSpectra()) {
+            const Index bins = plan.grid().axes.back().count;
+            chain.leakageExtent = leakageExtentOf(geometry, bins);
+            chain.skirtStep = Index(std::ceil(geometry.binsPerCell));
+            chain.excluded =
+                excludedPlaces(geometry, bins, settings.family, inBins(settings.decide.inhibitCells).back());
         }
         chain.inhibitCells = inBins(settings.decide.inhibitCells);
         if (!settings.decide.forgetCells.empty())

@@ -1,7 +1,5 @@
 #include "refine/familyGhosts.h"
 
-#include "frames/Spectrogram.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -18,8 +16,8 @@ namespace {
     public:
         explicit Members(const AnalysisPlan &plan)
             : m_family(plan.settings.family), m_axis(plan.grid().axes.back()),
-              m_band(plan.frames->spectrogram()->frequency()),
-              m_near(plan.settings.decide.inhibitCells.back() * plan.frames->spectrogram()->binsPerCell() * m_band.step)
+              m_band(plan.lines.front()->grid().axes.back()),
+              m_near(plan.settings.decide.inhibitCells.back() * plan.frames->geometry().binsPerCell * m_band.step)
         {
         }
 

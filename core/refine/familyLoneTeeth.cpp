@@ -1,6 +1,5 @@
 #include "refine/familyLoneTeeth.h"
 
-#include "frames/Spectrogram.h"
 #include "frames/Window.h"
 #include "frames/familyMembers.h"
 #include "refine/bothWays.h"
@@ -33,7 +32,7 @@ namespace {
     public:
         explicit LoneTeeth(const Analysis &analysis)
             : m_analysis(analysis), m_family(analysis.settings.family), m_axis(analysis.grid().axes.back()),
-              m_spectrogram(*analysis.frames->spectrogram()), m_band(m_spectrogram.frequency()),
+              m_geometry(analysis.frames->geometry()), m_band(analysis.lines.front()->grid().axes.back()),
               m_channels(analysis.lines.size()), m_values(m_family.members.size() * m_channels),
               m_model(bothWaysModel(analysis))
         {
@@ -90,7 +89,7 @@ namespace {
     private:
         std::vector<Index> binsAt(Index cell) const
         {
-            return memberBins(m_family, m_axis.value(double(cell)), m_band, m_spectrogram.hasRealEnds());
+            return memberBins(m_family, m_axis.value(double(cell)), m_band, m_geometry.hasRealEnds);
         }
 
         void readBlock(std::span<Neighbourhood *const> all, Index first, Index behind) const
@@ -186,7 +185,7 @@ namespace {
         float floorAt(Index bin, const Line &line) const
         {
             const double cells = double(std::abs(bin - line.bin)) / m_model.binsPerCell;
-            const double leakage = leakageBound(m_spectrogram.settings().window, cells);
+            const double leakage = leakageBound(m_geometry.window, cells);
             return float(1.0 + memberFloorFactor * double(line.power - 1.0f) * leakage);
         }
 
@@ -204,7 +203,7 @@ namespace {
         const Analysis &m_analysis;
         const FamilySettings &m_family;
         const Axis &m_axis; ///< the family's
-        const Spectrogram &m_spectrogram;
+        FrameGeometry m_geometry;
         const Axis &m_band; ///< of the members
         std::size_t m_channels;
         std::size_t m_values; ///< per cell

@@ -1,6 +1,5 @@
 #include "refine/otherWindows.h"
 
-#include "frames/Spectrogram.h"
 #include "frames/Window.h"
 #include "frames/observed.h"
 #include "plan/Analysis.h"
@@ -586,10 +585,9 @@ namespace {
                     beside.row(at)[i] /= 1.0f + point.level * float(leakageAt(shape(), distance / m_model.binsPerCell));
                 }
             }
-            const Spectrogram &spectrogram = *m_other->frames->spectrogram();
             const std::vector<double> levels =
                 areaLevels(beside, positions, m_model.binsPerCell,
-                           cellLikeness(sampleWindow(shape(), spectrogram.windowSamples())));
+                           cellLikeness(sampleWindow(shape(), m_other->frames->geometry().windowSamples)));
             for (Index at = 0; at < strip.frameCount(); ++at) {
                 for (float &y : std::span(strip.row(at), std::size_t(strip.width())))
                     y /= float(levels[std::size_t(at)]);

@@ -1,6 +1,5 @@
 #include "refine/ownNoiseLaw.h"
 
-#include "frames/Spectrogram.h"
 #include "noise/levels.h"
 #include "refine/pathStrips.h"
 #include "refine/secondLook.h"
@@ -247,12 +246,11 @@ namespace {
     /// Factor by which overlap increases the variance of means over many frames.
     double overlapOf(const NormalisedFrames &frames)
     {
-        const Spectrogram *spectrogram = frames.spectrogram();
-        if (!spectrogram)
+        const FrameGeometry geometry = frames.geometry();
+        if (!geometry.isOfSpectra())
             return 1.0;
-        const SpectrogramSettings &settings = spectrogram->settings();
         const double scatter =
-            overlapFactor(sampleWindow(settings.window, spectrogram->windowSamples()), settings.stepsPerWindow);
+            overlapFactor(sampleWindow(geometry.window, geometry.windowSamples), int(geometry.framesPerWindow));
         return scatter * scatter;
     }
 

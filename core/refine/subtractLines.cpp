@@ -2,7 +2,6 @@
 
 #include "base/Field.h"
 #include "base/logmath.h"
-#include "frames/Spectrogram.h"
 #include "noise/SurrogateRecording.h"
 #include "refine/smoothFrequency.h"
 
@@ -40,7 +39,7 @@ namespace {
 
     LinePath pathOf(const AnalysisPlan &plan, const Track &track)
     {
-        const double window = plan.frames->spectrogram()->windowSeconds();
+        const double window = plan.frames->geometry().windowSeconds;
         const auto endFrames = Index(std::lround(endWindows * window / plan.time().step));
         const auto secondsAt = [&](const TrackPoint &point) { return plan.time().value(double(point.frame)); };
         return {smoothFrequency(plan, middleOf(track, endFrames), smoothedWindows * window),

@@ -20,7 +20,7 @@ namespace {
     Bond bondOf(const Track &track, const Analysis &analysis, const TruthLine &line)
     {
         const Axis &frequency = analysis.grid().axes.front();
-        const double shown = analysis.frames->spectrogram()->windowSeconds();
+        const double shown = analysis.frames->geometry().windowSeconds;
         const double window = track.windowSeconds > 0.0 ? std::min(track.windowSeconds, shown) : shown;
         const double nearHz = onLineCells / window;
         const double centreHz = analysis.recording->info().centreHz;

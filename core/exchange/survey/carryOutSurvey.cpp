@@ -94,8 +94,8 @@ namespace {
     void describe(const Analysis &analysis, SurveyRecording &described)
     {
         described.settings = settingsToJson(analysis.settings);
-        if (const Spectrogram *spectrogram = analysis.frames->spectrogram())
-            described.windowSeconds = spectrogram->windowSeconds();
+        if (const FrameGeometry geometry = analysis.frames->geometry(); geometry.isOfSpectra())
+            described.windowSeconds = geometry.windowSeconds;
         described.threshold = analysis.threshold;
         described.unit = statisticUnit(analysis.settings.detector);
         described.lnK = analysis.calibration->lnK;
