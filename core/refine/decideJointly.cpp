@@ -60,8 +60,6 @@ namespace {
 
         static Range rangeOf(const Track &track)
         {
-            if (track.smoothed.empty())
-                return {};
             const auto byPosition = [](const SmoothedPoint &a, const SmoothedPoint &b) {
                 return a.position < b.position;
             };
@@ -82,7 +80,7 @@ namespace {
             const Track &a = m_tracks[i];
             const Track &b = m_tracks[j];
             FramesTogether longest;
-            if (a.smoothed.empty() || b.smoothed.empty() || !canMeet(m_ranges[i], m_ranges[j]))
+            if (a.points.empty() || b.points.empty() || !canMeet(m_ranges[i], m_ranges[j]))
                 return longest;
             FramesTogether run;
             const Index last = std::min(a.points.back().frame, b.points.back().frame);
@@ -118,7 +116,7 @@ namespace {
         {
             for (std::size_t other = 0; other < m_tracks.size(); ++other) {
                 const Track &track = m_tracks[other];
-                if (other == i || other == j || track.smoothed.empty())
+                if (other == i || other == j || track.points.empty())
                     continue;
                 const Index last = std::min(frames.to, track.points.back().frame);
                 for (Index frame = std::max(frames.from, track.points.front().frame); frame <= last; ++frame) {
@@ -220,7 +218,7 @@ namespace {
             const Track *nearest = nullptr;
             double least = onCells * m_binsPerCell;
             for (const Track &track : m_tracks)
-                if (!track.smoothed.empty() && isThere(track, frame))
+                if (!track.points.empty() && isThere(track, frame))
                     if (const double apart = std::abs(positionAt(track, frame) - double(cell)); apart <= least) {
                         least = apart;
                         nearest = &track;
@@ -284,7 +282,7 @@ namespace {
             };
             for (std::size_t other = 0; other < m_tracks.size(); ++other) {
                 Track &track = m_tracks[other];
-                if (other == i || other == j || track.smoothed.empty())
+                if (other == i || other == j || track.points.empty())
                     continue;
                 Index on = 0;
                 for (std::size_t point = 0; point < track.points.size(); ++point)

@@ -182,10 +182,8 @@ namespace {
             for (const std::vector<bool> &marks : m_marks)
                 runs.push_back(runsOf(marks));
             for (std::size_t lost = 0; lost < m_tracks.size(); ++lost)
-                if (!m_tracks[lost].smoothed.empty()) {
-                    markWhereLost(lost, runs, 1);
-                    markWhereLost(lost, runs, -1);
-                }
+                for (const Index direction : {1, -1})
+                    markWhereLost(lost, runs, direction);
             return std::move(m_marks);
         }
 
@@ -194,7 +192,7 @@ namespace {
         {
             std::vector<Way> ways;
             for (const Track &track : m_tracks) {
-                ways.push_back(track.smoothed.empty() ? Way() : measured(track, {0, track.smoothed.size()}));
+                ways.push_back(measured(track, {0, track.smoothed.size()}));
                 for (const double position : ways.back().positions) {
                     ways.back().low = std::min(ways.back().low, position);
                     ways.back().high = std::max(ways.back().high, position);
@@ -226,7 +224,7 @@ namespace {
             const Index end = firstFrame(track) + Index(isForward ? runs[lost].back().to - 1 : runs[lost].front().from);
             for (std::size_t other = 0; other < m_tracks.size(); ++other) {
                 const Track &beside = m_tracks[other];
-                if (other == lost || beside.smoothed.empty() || firstFrame(beside) > end || lastFrame(beside) < end)
+                if (other == lost || firstFrame(beside) > end || lastFrame(beside) < end)
                     continue;
                 const Run *run = nullptr;
                 for (const Run &candidate : runs[other]) {

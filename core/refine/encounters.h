@@ -24,7 +24,7 @@ struct EncounterRule {
 /// continue: the path is extrapolated beyond the track's end (PolynomialFit) as long as its position is known well
 /// enough. The end of a track that approached another one from 1.5 `endNear` or farther belongs to the encounter from
 /// the distance `endNear` on, because the other signal deflects it, provided that it is at least a quarter of
-/// `fitFrames` long and that half of `fitFrames` remain. Tracks without the second pass have no encounters.
+/// `fitFrames` long and that half of `fitFrames` remain. Precondition: all tracks have the second pass.
 std::vector<std::vector<bool>> encounters(const std::vector<Track> &tracks, const EncounterRule &rule);
 
 } // namespace faintline

@@ -98,8 +98,6 @@ namespace {
             rule.leastDeviation = cells(errorMinimumCells);
             const auto marks = encounters(m_tracks, rule);
             for (std::size_t i = 0; i < m_tracks.size(); ++i) {
-                if (m_tracks[i].smoothed.empty())
-                    continue;
                 const std::size_t first = m_pieces.size();
                 for (std::size_t from = 0; from < marks[i].size();) {
                     std::size_t to = from;
@@ -228,7 +226,7 @@ namespace {
         bool isVisible(Index frame, double position) const
         {
             return std::none_of(m_tracks.begin(), m_tracks.end(), [&](const Track &track) {
-                if (track.smoothed.empty() || frame < track.points.front().frame || frame > track.points.back().frame)
+                if (frame < track.points.front().frame || frame > track.points.back().frame)
                     return false;
                 const auto at = std::size_t(frame - track.points.front().frame);
                 return std::abs(track.smoothed[at].position - position) < cells(hidingCells);
@@ -380,9 +378,6 @@ namespace {
                 track.peakStatistic = std::max(track.peakStatistic, m_rule.threshold);
                 result.push_back(std::move(track));
             }
-            for (Track &track : m_tracks)
-                if (track.smoothed.empty() && !track.points.empty())
-                    result.push_back(std::move(track));
             return result;
         }
 
@@ -497,7 +492,7 @@ namespace {
             const SmoothedPoint *nearest = nullptr;
             double least = cells(onTrackCells);
             for (const Track &track : m_tracks) {
-                if (track.smoothed.empty() || frame < track.points.front().frame || frame > track.points.back().frame)
+                if (track.points.empty() || frame < track.points.front().frame || frame > track.points.back().frame)
                     continue;
                 const SmoothedPoint &point = track.smoothed[std::size_t(frame - track.points.front().frame)];
                 const double apart = std::abs(point.position - position);

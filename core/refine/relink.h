@@ -73,7 +73,7 @@ struct RelinkRule {
 /// these has its end, with what the other gained. Frames of an encounter are evidence for the signals that meet,
 /// whichever of them a track followed: two tracks that change places have as much together as before.
 ///
-/// Tracks without the second pass are left as they are. The result is not ordered. Deterministic.
+/// Precondition: all tracks have the second pass. The result is not ordered. Deterministic.
 std::vector<Track> relink(std::vector<Track> tracks, const RelinkRule &rule);
 
 } // namespace faintline

@@ -30,10 +30,8 @@ namespace {
     Track middleOf(const Track &track, Index endFrames)
     {
         const Index cut = std::min(endFrames, std::ssize(track.points) / 4);
-        Track middle = track.withoutPoints();
-        middle.points.assign(track.points.begin() + cut, track.points.end() - cut);
-        if (!track.smoothed.empty())
-            middle.smoothed.assign(track.smoothed.begin() + cut, track.smoothed.end() - cut);
+        Track middle = track;
+        middle.keepPoints(std::size_t(cut), track.points.size() - std::size_t(cut));
         return middle;
     }
 

@@ -74,7 +74,6 @@ private slots:
     void anEndBesideATrackIsOne();
     void theEndOfAnApproachBelongsToIt();
     void aLostSignalIsExpectedToContinue();
-    void withoutTheSecondPassThereAreNone();
 };
 
 void tst_encounters::farApartThereAreNone()
@@ -162,15 +161,6 @@ void tst_encounters::aLostSignalIsExpectedToContinue()
     // Likewise backward, for a signal that is found again.
     const std::vector<Track> found{track(straight(100.0)), track(straight(100.0, 0.1), 210)};
     QCOMPARE(marked(found[0], encounters(found, rule()).front()), (Frames{{171, 229}}));
-}
-
-void tst_encounters::withoutTheSecondPassThereAreNone()
-{
-    std::vector<Track> tracks{track(straight(100.0)), track(straight(100.0, 0.1))};
-    tracks[1].smoothed.clear();
-    const auto marks = encounters(tracks, rule());
-    QCOMPARE(std::ranges::count(marks[0], true), 0);
-    QVERIFY(marks[1].empty());
 }
 
 FAINTLINE_TEST(tst_encounters)

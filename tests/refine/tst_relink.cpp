@@ -122,7 +122,6 @@ private slots:
     void aGhostTakesNothing();
     void piecesHaveTheirOwnEvidence();
     void encountersKeepTheirEvidence();
-    void withoutTheSecondPassNothingChanges();
 };
 
 void tst_relink::aloneItStaysAsItIs()
@@ -335,17 +334,6 @@ void tst_relink::encountersKeepTheirEvidence()
     for (const Way &way : {up, flat})
         QVERIFY(distance(trackAlong(result, way), way) < 1.5);
     QVERIFY2(std::abs(kept - found) < 1e-9, qPrintable(QString("%1 of %2").arg(kept).arg(found)));
-}
-
-void tst_relink::withoutTheSecondPassNothingChanges()
-{
-    Track plain = track(0, 800, straight(300.0, 0.06));
-    Track other = track(0, 800, straight(300.0, 0.0));
-    plain.smoothed.clear();
-    other.smoothed.clear();
-    const auto result = relink({plain, other}, rule());
-    QCOMPARE(result.size(), std::size_t(2));
-    QCOMPARE(result.front().points.size(), plain.points.size());
 }
 
 FAINTLINE_TEST(tst_relink)
