@@ -3,8 +3,6 @@
 #include "evaluate/experiments/peers.h"
 
 #include <cstdio>
-#include <numeric>
-#include <vector>
 
 using namespace faintline;
 
@@ -19,11 +17,9 @@ int main()
     experiment.detectors = {peer("SMD 5 slopes", 50.0), peer("3 of 4", 50.0), peer("integrator", 50.0)};
 
     Campaign campaign{experiment, {}, {}};
-    std::vector<int> runs(std::size_t(experiment.runs));
-    std::iota(runs.begin(), runs.end(), 0);
     RunContext context;
     context.threads = 2;
-    carryOut(campaign, runs, context);
+    carryOut(campaign, runsOfShard(experiment, 0, 1), context);
 
     std::printf("%-14s %8s %6s   %s\n", "detector", "SNR (dB)", "Pd", "95 %");
     for (const CurvePoint &point : pdCurve(campaign))

@@ -158,7 +158,7 @@ namespace {
         } else {
             if (!options.shard.empty())
                 throw Error("--shard", "requires --out for the shard's runs");
-            Campaign campaign = begin(experiment, common.context());
+            Campaign campaign{experiment, {}, {}};
             carryOut(campaign, runs, common.context());
             print(campaign);
             writeOutputs(campaign, inputs, options, common);

@@ -15,7 +15,6 @@
 #include "signal/openRecording.h"
 
 #include <filesystem>
-#include <numeric>
 #include <optional>
 
 namespace faintline::cli {
@@ -110,15 +109,14 @@ namespace {
         const Experiment experiment = experimentFromJson(provenance.at("experiment"), "experiment");
         if (const std::string recording = recordingOf(experiment); !recording.empty())
             table.mayRead(recording);
-        std::vector<int> runs(std::size_t(runCount(experiment)));
-        std::iota(runs.begin(), runs.end(), 0);
+        std::vector<int> runs = runsOfShard(experiment, 0, 1);
         if (provenance.contains("runs")) { // it was stopped
             runs.clear();
             for (const Json &run : provenance["runs"])
                 runs.push_back(runFromJson(run, experiment, "runs"));
         }
-        Campaign campaign = begin(experiment, context.part(0.0, 0.1));
-        carryOut(campaign, runs, context.part(0.1, 1.0));
+        Campaign campaign{experiment, {}, {}};
+        carryOut(campaign, runs, context);
         writeCurve(campaign, out);
     }
 

@@ -3,7 +3,6 @@
 #include "widgets/base/labelText.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace faintline {
@@ -11,15 +10,6 @@ namespace faintline {
 namespace {
 
     constexpr int announceInterval = 150; // ms
-
-    std::vector<int> openRuns(const Campaign &campaign)
-    {
-        std::vector<int> runs(std::size_t(runCount(campaign.experiment)));
-        std::iota(runs.begin(), runs.end(), 0);
-        for (const RunOutcome &outcome : campaign.outcomes)
-            std::erase(runs, outcome.run);
-        return runs;
-    }
 
 } // namespace
 
@@ -157,7 +147,7 @@ void Experiments::startCampaign(const Entry &entry)
                 }
             },
             Qt::QueuedConnection);
-        trials->run(openRuns(campaign), context.part(0.3, 1.0), sink);
+        trials->run(openRuns(campaign, runsOfShard(campaign.experiment, 0, 1)), context.part(0.3, 1.0), sink);
         return [] {};
     });
 }

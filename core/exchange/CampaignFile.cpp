@@ -361,11 +361,12 @@ Campaign carryOutResumably(const Experiment &experiment, const std::vector<int> 
     std::optional<Campaign> begun = readParts(parts);
     if (begun && !(begun->experiment == experiment))
         throw Error(parts, "contains runs of a different experiment; remove it or choose another name for the result");
-    Campaign campaign = begun ? std::move(*begun) : begin(experiment, context.part(0.0, 0.1));
+    const auto trials = prepareTrials(experiment, openRecordingOf(experiment), context.part(0.0, 0.1));
+    Campaign campaign = begun ? std::move(*begun) : Campaign{experiment, trials->thresholds(), {}};
     if (!begun)
         writeParts(campaign, parts);
     Lines lines(parts);
-    carryOut(campaign, runs, context.part(0.1, 1.0),
+    carryOut(campaign, runs, *trials, context.part(0.1, 1.0),
              [&](const RunOutcome &outcome) { lines.add(withChecksum(lineOf(outcome))); });
     return campaign;
 }

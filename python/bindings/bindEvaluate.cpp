@@ -72,8 +72,8 @@ namespace {
     {
         const std::vector<int> runs = runsOfShard(experiment, 0, 1);
         if (out.empty()) {
-            Campaign campaign = begin(experiment, context.part(0.0, 0.1));
-            carryOut(campaign, runs, context.part(0.1, 1.0));
+            Campaign campaign{experiment, {}, {}};
+            carryOut(campaign, runs, context);
             return campaign;
         }
         Campaign campaign = carryOutResumably(experiment, runs, out, context);

@@ -76,12 +76,12 @@ private slots:
     void shardsMergeToTheWhole()
     {
         const Experiment experiment = smallExperiment();
-        Campaign whole = begin(experiment);
+        Campaign whole{experiment, {}, {}};
         carryOut(whole, firstRuns(6));
         writeCurve(whole, path("whole.csv"));
         std::vector<Campaign> parts;
         for (const int shard : {2, 0, 1}) {
-            Campaign part = begin(experiment);
+            Campaign part{experiment, {}, {}};
             carryOut(part, runsOfShard(experiment, shard, 3));
             writeCampaign(part, path("shard"));
             parts.push_back(readCampaign(path("shard")));
@@ -106,7 +106,7 @@ private slots:
     {
         LineExperiment experiment = smallExperiment();
         experiment.detectors = {detectorUnderTest("a\",9\n\"b\",1,1,1,1,1,1", PofNSettings{3, 4})};
-        Campaign campaign = begin(experiment);
+        Campaign campaign{experiment, {}, {}};
         carryOut(campaign, firstRuns(1));
         writeCurve(campaign, path("names.csv"));
         const std::vector<CurvePoint> curve = readCurve(path("names.csv"));
@@ -220,7 +220,7 @@ private slots:
     {
         LineExperiment experiment = smallExperiment();
         experiment.snrDb = {-40.0, 15.0};
-        Campaign campaign = begin(experiment);
+        Campaign campaign{experiment, {}, {}};
         carryOut(campaign, {0, 1, 2}, onThreads(2));
         const auto curve = pdCurve(campaign);
         QCOMPARE(curve.size(), std::size_t(6));
@@ -248,14 +248,14 @@ private slots:
         injection.settings.spectrogram.windowSeconds = 0.5;
         injection.detectors = {detectorUnderTest("energy", EnergySettings{}),
                                detectorUnderTest("3 of 4", PofNSettings{3, 4})};
-        Campaign campaign = begin(injection);
-        QCOMPARE(campaign.thresholds.size(), std::size_t(2));
+        Campaign campaign{injection, {}, {}};
         carryOut(campaign, firstRuns(6), onThreads(2));
+        QCOMPARE(campaign.thresholds.size(), std::size_t(2));
         for (const CurvePoint &point : pdCurve(campaign)) {
             QCOMPARE(point.trials, 6);
             QCOMPARE(point.pd, point.snrDb > 0.0 ? 1.0 : 0.0);
         }
-        Campaign again = begin(injection);
+        Campaign again{injection, {}, {}};
         carryOut(again, {5, 2}, onThreads(1));
         QVERIFY(again.outcomes[0] == campaign.outcomes[2] && again.outcomes[1] == campaign.outcomes[5]);
     }
@@ -266,7 +266,7 @@ private slots:
         experiment.frames = 240;
         experiment.snrDb = {-40.0, 10.0};
         experiment.detectors = {{"detect", {}, true}};
-        Campaign campaign = begin(experiment);
+        Campaign campaign{experiment, {}, {}};
         carryOut(campaign, {0, 1}, onThreads(2));
         const std::vector<CurvePoint> curve = pdCurve(campaign);
         QVERIFY2(curve[0].pd < 0.1, qPrintable(QString::number(curve[0].pd)));
@@ -304,7 +304,7 @@ private slots:
         experiment.frames = 1200;
         experiment.snrDb = {-40.0};
         experiment.detectors = {{"detect", {}, true}};
-        Campaign campaign = begin(experiment);
+        Campaign campaign{experiment, {}, {}};
         carryOut(campaign, firstRuns(6), onThreads(2));
         double blocks = 0.0;
         double hit = 0.0;
@@ -323,9 +323,9 @@ private slots:
         injection.trials = 4;
         injection.marginSeconds = 30.0;
         injection.detectors = {detectorUnderTest("energy", EnergySettings{}), {"detect", {}, true}};
-        Campaign campaign = begin(injection);
-        QCOMPARE(campaign.thresholds[1], 0.0);
+        Campaign campaign{injection, {}, {}};
         carryOut(campaign, firstRuns(4), onThreads(2));
+        QCOMPARE(campaign.thresholds[1], 0.0);
         for (const CurvePoint &point : pdCurve(campaign))
             QCOMPARE(point.pd, point.snrDb > 0.0 ? 1.0 : 0.0);
         const InjectionTrials trials(injection, openRecording(injection.recording));
@@ -351,7 +351,7 @@ private slots:
         injection.detectors = {detectorUnderTest("energy", EnergySettings{}),
                                detectorUnderTest("3 of 4", PofNSettings{3, 4}),
                                detectorUnderTest("SMD", SmdSettings{})};
-        Campaign campaign = begin(injection);
+        Campaign campaign{injection, {}, {}};
         carryOut(campaign, firstRuns(12), onThreads(2));
         const InjectionTrials trials(injection, openRecording(injection.recording));
         for (int trial = 0; trial < 12; ++trial)

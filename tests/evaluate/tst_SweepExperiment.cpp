@@ -35,7 +35,7 @@ Campaign carriedOut(const SweepExperiment &sweep, int threads = 1)
 {
     RunContext context;
     context.threads = threads;
-    Campaign campaign = begin(sweep, context);
+    Campaign campaign{sweep, {}, {}};
     carryOut(campaign, runsOfShard(sweep, 0, 1), context);
     return campaign;
 }
@@ -219,7 +219,7 @@ private slots:
         QVERIFY(carriedOut(experiment, 4).outcomes == whole.outcomes);
         std::vector<Campaign> parts;
         for (int i = 0; i < 4; ++i) {
-            Campaign part = begin(experiment);
+            Campaign part{experiment, {}, {}};
             carryOut(part, runsOfShard(experiment, i, 4));
             const std::string file = path(("part" + std::to_string(i)).c_str());
             writeCampaign(part, file);

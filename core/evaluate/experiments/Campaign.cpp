@@ -110,23 +110,28 @@ std::unique_ptr<const Trials> prepareTrials(const Experiment &experiment, Record
     return std::make_unique<SweepTrials>(std::get<SweepExperiment>(experiment), std::move(recording), context);
 }
 
-Campaign begin(const Experiment &experiment, const RunContext &context)
-{
-    if (std::holds_alternative<LineExperiment>(experiment))
-        return {experiment, {}, {}};
-    return {experiment, prepareTrials(experiment, openRecordingOf(experiment), context)->thresholds(), {}};
-}
-
-void carryOut(Campaign &campaign, const std::vector<int> &runs, const RunContext &context, const RunSink &sink)
+std::vector<int> openRuns(const Campaign &campaign, std::vector<int> runs)
 {
     std::set<int> done;
     for (const RunOutcome &outcome : campaign.outcomes)
         done.insert(outcome.run);
-    std::vector<int> open;
-    std::copy_if(runs.begin(), runs.end(), std::back_inserter(open), [&](int run) { return !done.contains(run); });
-    const RecordingPointer recording = openRecordingOf(campaign.experiment);
-    const auto outcomes =
-        prepareTrials(campaign.experiment, recording, context.part(0.0, 0.1))->run(open, context.part(0.1, 1.0), sink);
+    std::erase_if(runs, [&](int run) { return done.contains(run); });
+    return runs;
+}
+
+void carryOut(Campaign &campaign, const std::vector<int> &runs, const RunContext &context, const RunSink &sink)
+{
+    const auto trials =
+        prepareTrials(campaign.experiment, openRecordingOf(campaign.experiment), context.part(0.0, 0.1));
+    carryOut(campaign, runs, *trials, context.part(0.1, 1.0), sink);
+}
+
+void carryOut(Campaign &campaign, const std::vector<int> &runs, const Trials &trials, const RunContext &context,
+              const RunSink &sink)
+{
+    if (campaign.outcomes.empty())
+        campaign.thresholds = trials.thresholds();
+    const auto outcomes = trials.run(openRuns(campaign, runs), context, sink);
     campaign.outcomes.insert(campaign.outcomes.end(), outcomes.begin(), outcomes.end());
     std::sort(campaign.outcomes.begin(), campaign.outcomes.end(), inRunOrder);
 }

@@ -48,13 +48,16 @@ struct Campaign {
     std::vector<RunOutcome> outcomes; ///< in ascending order of runs
 };
 
-/// Executes those of `runs` that `campaign` does not hold yet and adds them; `sink` receives each new one. A new
-/// campaign needs only the experiment. Results do not depend on how the work is divided. Throws Error, Cancelled.
+/// Those of `runs` that a campaign does not hold yet.
+std::vector<int> openRuns(const Campaign &campaign, std::vector<int> runs);
+
+/// Executes the open ones of `runs` and adds them; `sink` receives each new one. A new campaign needs only the
+/// experiment. Results do not depend on how the work is divided. `trials`: those of the experiment, if they are
+/// prepared. Throws Error, Cancelled.
 void carryOut(Campaign &campaign, const std::vector<int> &runs, const RunContext &context = {},
               const RunSink &sink = {});
-
-/// Prepares a campaign: calibrates thresholds if the experiment requires it.
-Campaign begin(const Experiment &experiment, const RunContext &context = {});
+void carryOut(Campaign &campaign, const std::vector<int> &runs, const Trials &trials, const RunContext &context = {},
+              const RunSink &sink = {});
 
 /// The runs of shard `index` of `count`: those with run ≡ index (mod count).
 std::vector<int> runsOfShard(const Experiment &experiment, int index, int count);
