@@ -7,6 +7,7 @@
 #include "base/json.h"
 #include "base/oneLine.h"
 #include "exchange/csvText.h"
+#include "exchange/textTable.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -186,42 +187,21 @@ namespace {
         return csv;
     }
 
-    /// "name",snr,pd,low,high,trials,threshold: the last may be empty.
-    CurvePoint pointFrom(std::string_view line, const std::string &where)
+    /// The last cell, the threshold, may be empty.
+    CurvePoint pointFrom(const TextTable &row)
     {
         constexpr double mostTrials = 1e15;
-        const Error refusal(where, "must be " + std::string(curveHead));
-        CurvePoint point;
-        std::size_t quote = line.starts_with('"') ? 1 : line.size();
-        for (; quote < line.size(); ++quote) {
-            if (line[quote] == '"' && (quote + 1 == line.size() || line[quote + 1] != '"'))
-                break;
-            quote += line[quote] == '"' ? 1 : 0; // doubled: one of the name's own
-            point.detector += line[quote];
-        }
-        if (quote + 1 >= line.size())
-            throw refusal;
         std::vector<std::optional<double>> values;
-        for (std::string_view rest = line.substr(quote + 2);;) {
-            const std::size_t comma = rest.find(',');
-            values.push_back(parseNumber(rest.substr(0, comma)));
-            if (comma == std::string_view::npos)
-                break;
-            rest = rest.substr(comma + 1);
-        }
+        for (std::ptrdiff_t column = 1; column < 7; ++column)
+            values.push_back(parseNumber(row.cell(column)));
         const auto isProbability = [](const std::optional<double> &value) {
             return value && *value >= 0.0 && *value <= 1.0;
         };
-        if (values.size() != 6 || !values[0] || !std::isfinite(*values[0])
+        if (row.size() != 7 || !values[0] || !std::isfinite(*values[0])
             || !std::all_of(values.begin() + 1, values.begin() + 4, isProbability)
             || !(values[4] && *values[4] >= 0.0 && *values[4] <= mostTrials))
-            throw refusal;
-        point.snrDb = *values[0];
-        point.pd = *values[1];
-        point.interval = {*values[2], *values[3]};
-        point.trials = std::int64_t(*values[4]);
-        point.threshold = values[5];
-        return point;
+            throw Error(row.place(), "must be " + std::string(curveHead));
+        return {row.cell(0), *values[0], *values[1], {*values[2], *values[3]}, std::int64_t(*values[4]), values[5]};
     }
 
     void writeParts(const Campaign &campaign, const std::string &parts)
@@ -340,15 +320,13 @@ void writeRoc(const Campaign &campaign, std::size_t snr, const std::string &path
 
 std::vector<CurvePoint> readCurve(const std::string &path)
 {
-    std::ifstream file(path);
-    if (!file)
-        throw Error(path, std::string("cannot be read: ") + std::strerror(errno));
-    std::string line;
-    if (!std::getline(file, line) || !line.starts_with(curveHead))
+    const std::string text = readTableText(path);
+    if (!text.starts_with(curveHead))
         throw Error(path, "is not a curve: its first line must be " + std::string(curveHead));
+    TextTable table(path, text, true);
     std::vector<CurvePoint> curve;
-    for (int number = 2; std::getline(file, line); ++number)
-        curve.push_back(pointFrom(line, path + ", line " + std::to_string(number)));
+    while (table.next())
+        curve.push_back(pointFrom(table));
     if (curve.empty())
         throw Error(path, "holds no points of a curve");
     return curve;
