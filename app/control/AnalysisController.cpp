@@ -185,10 +185,11 @@ void AnalysisController::startAnalysis()
                 std::shared_ptr<const KeptFrames> frames;
                 if (range.isKeepable)
                     frames = isKept ? kept
-                                    : keepFrames(previous->frames, range.readFirst, range.end - range.readFirst,
-                                                 context.part(0.0, 0.01));
-                const StatisticPreview preview =
-                    previewStatistic(*previous, previewed, range, frames.get(), context.part(0.01, 0.02));
+                                    : std::make_shared<const KeptFrames>(previous->frames, range.readFirst,
+                                                                         range.end - range.readFirst,
+                                                                         context.part(0.0, 0.01));
+                const StatisticPreview preview = previewStatistic(
+                    *previous, previewed, range, frames ? *frames : *previous->frames, context.part(0.01, 0.02));
                 m_runner.deliver([this, settings, preview, frames] { showPreview(settings, preview, frames); });
             }
         }

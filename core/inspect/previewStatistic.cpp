@@ -16,43 +16,22 @@ namespace {
     constexpr Index mostPreviewCells = 70'000'000;
     constexpr Index blockFrames = 64;
 
-    /// Blocks of frames, from memory if available.
-    class Blocks
-    {
-    public:
-        Blocks(const NormalisedFrames &source, const KeptFrames *kept) : m_source(source), m_kept(kept) {}
-
-        std::span<const float> at(Index frame, Index count)
-        {
-            const Index cells = m_source.grid().size();
-            const auto size = std::size_t(count * cells);
-            if (m_kept)
-                return std::span(m_kept->values).subspan(std::size_t((frame - m_kept->first) * cells), size);
-            m_block.resize(size);
-            m_source.read(frame, count, m_block);
-            return m_block;
-        }
-
-    private:
-        const NormalisedFrames &m_source;
-        const KeptFrames *m_kept;
-        std::vector<float> m_block;
-    };
-
     /// ln K with which half of the states continue, from the first frames of the range.
-    double settledLnK(const MarkovModel &model, double lnK, const FrameRange &range, Blocks &blocks,
+    double settledLnK(const MarkovModel &model, double lnK, const FrameRange &range, const NormalisedFrames &source,
                       const RunContext &context)
     {
         Smd smd(model, {ResetLaw::Half, lnK, 0.0, settlingGain});
         smd.useThreads(context.threads);
         std::vector<float> statistic(std::size_t(model.space.cellCount()));
+        std::vector<float> y(statistic.size());
         const Index frames = std::min(range.end - range.readFirst, leadInFrames);
         const Index averaged = std::min(averagedFrames, (frames + 1) / 2);
         double sum = 0.0;
         Index counted = 0;
         for (Index frame = 0; frame < frames; ++frame) {
             context.checkpoint(0.0, "previewing");
-            smd.update(blocks.at(range.readFirst + frame, 1), statistic);
+            source.read(range.readFirst + frame, 1, y);
+            smd.update(y, statistic);
             if (frame < frames - averaged)
                 continue;
             sum += smd.regulation().lnK;
@@ -63,22 +42,22 @@ namespace {
 
 } // namespace
 
-std::shared_ptr<const KeptFrames> keepFrames(NormalisedFramesPointer source, Index first, Index count,
-                                             const RunContext &context)
+KeptFrames::KeptFrames(NormalisedFramesPointer source, Index first, Index count, const RunContext &context)
+    : NormalisedFrames(source->time(), source->grid()), m_source(std::move(source)), m_first(first), m_count(count),
+      m_values(std::size_t(count * m_grid.size()))
 {
-    auto kept = std::make_shared<KeptFrames>();
-    const Index cells = source->grid().size();
-    kept->values.resize(std::size_t(count * cells));
+    const Index cells = m_grid.size();
     for (Index done = 0; done < count; done += blockFrames) {
         context.checkpoint(double(done) / double(count), "reading the visible part");
         const Index block = std::min(blockFrames, count - done);
-        source->read(first + done, block,
-                     std::span(kept->values).subspan(std::size_t(done * cells), std::size_t(block * cells)));
+        m_source->read(first + done, block,
+                       std::span(m_values).subspan(std::size_t(done * cells), std::size_t(block * cells)));
     }
-    kept->source = std::move(source);
-    kept->first = first;
-    kept->count = count;
-    return kept;
+}
+
+void KeptFrames::read(Index first, Index count, std::span<float> out) const
+{
+    std::copy_n(m_values.begin() + (first - m_first) * m_grid.size(), count * m_grid.size(), out.begin());
 }
 
 FrameRange previewRange(const NormalisedFrames &frames, Index first, Index last)
@@ -103,7 +82,7 @@ bool isWorthAPreview(const Analysis &before, const AnalysisSettings &settings)
 }
 
 StatisticPreview previewStatistic(const Analysis &before, const AnalysisSettings &settings, const FrameRange &range,
-                                  const KeptFrames *kept, const RunContext &context)
+                                  const NormalisedFrames &frames, const RunContext &context)
 {
     checkSettings(settings);
     AnalysisPlan trial;
@@ -112,13 +91,12 @@ StatisticPreview previewStatistic(const Analysis &before, const AnalysisSettings
     trial.frames = before.frames;
     const std::vector<MarkovModel> models = makeModels(settings.model, before.grid());
     trial.model = models.front();
-    Blocks blocks(*before.frames, kept);
     auto calibration = std::make_shared<Calibration>(*before.calibration);
     if (const auto *smd = std::get_if<SmdSettings>(&settings.detector)) {
         if (smd->reset == SmdSettings::Reset::Fixed)
             calibration->lnK = smd->lnK;
         else if (smd->reset == SmdSettings::Reset::Calibrated)
-            calibration->lnK = settledLnK(trial.model, before.calibration->lnK, range, blocks, context);
+            calibration->lnK = settledLnK(trial.model, before.calibration->lnK, range, frames, context);
     }
     trial.calibration = calibration;
     for (std::size_t i = 0; i < models.size() && models.size() > 1; ++i) {
@@ -134,13 +112,15 @@ StatisticPreview previewStatistic(const Analysis &before, const AnalysisSettings
     const auto statistic = std::make_shared<PeakPyramid>(
         Axis{time.name, time.unit, time.value(double(range.first)), time.step, range.end - range.first, false}, cells,
         ByteScale(ByteScale::Kind::ScoreNats), memoryShares::closeup);
-    std::vector<float> scores;
+    std::vector<float> y, scores;
     for (Index frame = range.readFirst; frame < range.end;) {
         context.checkpoint(double(frame - range.readFirst) / double(range.end - range.readFirst), "previewing");
         const Index stop = frame < range.first ? range.first : range.end;
         const Index block = std::min(blockFrames, stop - frame);
-        scores.resize(std::size_t(block * cells));
-        detector->updateBlock(blocks.at(frame, block), scores, cells);
+        y.resize(std::size_t(block * cells));
+        scores.resize(y.size());
+        frames.read(frame, block, y);
+        detector->updateBlock(y, scores, cells);
         if (frame >= range.first)
             statistic->append(scores);
         frame += block;

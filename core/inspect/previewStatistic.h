@@ -8,23 +8,28 @@
 
 namespace faintline {
 
-/// Normalised frames first … first+count-1 held in memory, so that another detector can process them at once.
-struct KeptFrames {
-    NormalisedFramesPointer source;
-    Index first = 0;
-    Index count = 0;
-    std::vector<float> values; ///< count × cells
+/// Normalised frames first … first+count-1 of a source held in memory, so that another detector can process them at
+/// once. Only these can be read, by the source's numbers.
+class KeptFrames final : public NormalisedFrames
+{
+public:
+    /// Reads the frames. Throws Cancelled.
+    KeptFrames(NormalisedFramesPointer source, Index first, Index count, const RunContext &context = {});
+
+    void read(Index first, Index count, std::span<float> out) const override;
 
     /// Whether these include the frames from … to-1 of a source.
     bool holds(const NormalisedFramesPointer &frames, Index from, Index to) const
     {
-        return source == frames && first <= from && to <= first + count;
+        return m_source == frames && m_first <= from && to <= m_first + m_count;
     }
-};
 
-/// Reads the frames. Throws Cancelled.
-std::shared_ptr<const KeptFrames> keepFrames(NormalisedFramesPointer source, Index first, Index count,
-                                             const RunContext &context = {});
+private:
+    NormalisedFramesPointer m_source;
+    Index m_first;
+    Index m_count;
+    std::vector<float> m_values; ///< count × cells
+};
 
 /// Output of a changed detector on a few frames, before anything has been calibrated for it.
 struct StatisticPreview {
@@ -46,16 +51,15 @@ struct FrameRange {
 };
 FrameRange previewRange(const NormalisedFrames &frames, Index first, Index last);
 
-/// Runs the detector that the settings describe over a range of frames, from memory if possible: the same recursion,
+/// Runs the detector that the settings describe over a range of frames, kept ones or the analysis's: the same recursion,
 /// but without threshold, trackers and their feedback, so D continues to grow where something was detected.
 ///
 /// If K would be calibrated to 50 % of noise states continued, it is determined on these frames: regulated toward that
 /// over the first of them (ResetLaw::Half) and then held. Most cells are noise, so it is near the calibrated one, which
 /// is sufficient for a preview. Depends only on the frames and settings. Cost: one pass of the recursion; no
 /// simulation. Oracle: Smd run with the same ln K. A bank's models keep the offsets that make their false alarms equal.
-/// Precondition: `kept` is null or holds the range.
 StatisticPreview previewStatistic(const Analysis &before, const AnalysisSettings &settings, const FrameRange &range,
-                                  const KeptFrames *kept, const RunContext &context = {});
+                                  const NormalisedFrames &frames, const RunContext &context = {});
 
 /// Whether a change of settings justifies a preview: it concerns the detector or its model, and nothing before it.
 bool isWorthAPreview(const Analysis &before, const AnalysisSettings &settings);

@@ -33,9 +33,9 @@ AnalysisSettings changed()
 void previewOfKeptFrames(benchmark::State &state)
 {
     const FrameRange range = previewRange(*before().frames, 0, 999);
-    const auto kept = keepFrames(before().frames, range.readFirst, range.end - range.readFirst);
+    const KeptFrames kept(before().frames, range.readFirst, range.end - range.readFirst);
     for ([[maybe_unused]] auto turn : state)
-        benchmark::DoNotOptimize(previewStatistic(before(), changed(), range, kept.get()).lnK);
+        benchmark::DoNotOptimize(previewStatistic(before(), changed(), range, kept).lnK);
     state.SetItemsProcessed(state.iterations() * range.end * before().grid().size());
 }
 
@@ -43,8 +43,8 @@ void previewWithFramesToRead(benchmark::State &state)
 {
     const FrameRange range = previewRange(*before().frames, 0, 999);
     for ([[maybe_unused]] auto turn : state) {
-        const auto kept = keepFrames(before().frames, range.readFirst, range.end - range.readFirst);
-        benchmark::DoNotOptimize(previewStatistic(before(), changed(), range, kept.get()).lnK);
+        const KeptFrames kept(before().frames, range.readFirst, range.end - range.readFirst);
+        benchmark::DoNotOptimize(previewStatistic(before(), changed(), range, kept).lnK);
     }
 }
 

@@ -51,10 +51,10 @@ StatisticPreview previewed(const Analysis &before, const AnalysisSettings &setti
                            int threads = 1)
 {
     const FrameRange range = previewRange(*before.frames, first, last);
-    const auto kept = keepFrames(before.frames, range.readFirst, range.end - range.readFirst);
+    const KeptFrames kept(before.frames, range.readFirst, range.end - range.readFirst);
     RunContext context;
     context.threads = threads;
-    return previewStatistic(before, settings, range, kept.get(), context);
+    return previewStatistic(before, settings, range, kept, context);
 }
 
 } // namespace
@@ -122,7 +122,7 @@ private slots:
         expected.finish();
         QVERIFY(valuesOf(*preview.statistic) == valuesOf(expected));
         const StatisticPreview streamed =
-            previewStatistic(*before, settings, previewRange(*before->frames, 0, 10000), nullptr);
+            previewStatistic(*before, settings, previewRange(*before->frames, 0, 10000), *before->frames);
         QVERIFY(valuesOf(*streamed.statistic) == valuesOf(expected));
         QCOMPARE(preview.statistic->time().first, before->time().first);
     }
@@ -225,14 +225,15 @@ private slots:
     void keptFramesKnowWhatTheyAre()
     {
         const auto before = analysed();
-        const auto kept = keepFrames(before->frames, 50, 100);
-        QVERIFY(kept->holds(before->frames, 50, 150));
-        QVERIFY(!kept->holds(before->frames, 49, 150));
-        QVERIFY(!kept->holds(before->frames, 60, 151));
-        QVERIFY(!kept->holds(analysed()->frames, 60, 100));
-        std::vector<float> y(std::size_t(before->grid().size()));
+        const KeptFrames kept(before->frames, 50, 100);
+        QVERIFY(kept.holds(before->frames, 50, 150));
+        QVERIFY(!kept.holds(before->frames, 49, 150));
+        QVERIFY(!kept.holds(before->frames, 60, 151));
+        QVERIFY(!kept.holds(analysed()->frames, 60, 100));
+        std::vector<float> y(std::size_t(before->grid().size())), same(y.size());
         before->frames->read(149, 1, y);
-        QVERIFY(std::equal(y.begin(), y.end(), kept->values.end() - std::ssize(y)));
+        kept.read(149, 1, same);
+        QVERIFY(same == y);
     }
 };
 
