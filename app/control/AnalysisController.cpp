@@ -137,7 +137,7 @@ void AnalysisController::setSettings(const AnalysisSettings &settings, const QSt
 
 void AnalysisController::inject(const LineSettings &line)
 {
-    if (!m_document.recording() || m_isOpening || m_document.isLive())
+    if (!m_document.recording() || m_isOpening || !m_document.takesAnalyses())
         return;
     const OpenedSource opened = m_document.openedSource();
     m_runner.start(
@@ -160,7 +160,7 @@ void AnalysisController::setThresholdUnit(DecideSettings::By by)
 
 void AnalysisController::run()
 {
-    if (!m_document.isEmpty() && !m_isOpening && !m_document.isLive()) // a live document analyses itself
+    if (m_document.takesAnalyses() && !m_isOpening)
         startAnalysis();
 }
 
@@ -197,7 +197,7 @@ void AnalysisController::startAnalysis()
         PictureSink pictures;
         if (!previous)
             pictures = [this](const PicturesSoFar &sofar) {
-                m_runner.deliver([this, sofar] { emit m_document.picturesGrew(sofar); });
+                m_runner.deliver([this, sofar] { m_document.showPictures(sofar); });
             };
         const bool isNew = showsFirstEstimates && opened.recording && !knownCalibration(settings);
         const auto calibration = isNew ? CalibrationDepth::FirstEstimate : CalibrationDepth::Refined;

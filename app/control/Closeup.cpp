@@ -40,8 +40,8 @@ bool Closeup::eventFilter(QObject *watched, QEvent *event)
 /// For a live run, only while its picture is paused.
 std::shared_ptr<const Analysis> Closeup::current() const
 {
-    const bool isMoving = m_document.isLive() && m_document.viewport().isFollowing();
-    return isMoving ? nullptr : m_document.inspectedUntil(m_document.viewport().time().high);
+    const Viewport &viewport = m_document.viewport();
+    return viewport.isFollowing() ? nullptr : m_document.inspectedUntil(viewport.time().high);
 }
 
 bool Closeup::showsNewest() const
@@ -60,13 +60,13 @@ std::shared_ptr<const PeakPyramid> Closeup::lookedBackAt(const WaterfallView &vi
 FrameStretch Closeup::wanted() const
 {
     const auto analysis = current();
-    if (!analysis || (m_document.isLive() && showsNewest()))
+    if (!analysis || (!m_document.live().isEmpty() && showsNewest()))
         return {};
     const Span &visible = m_document.viewport().time();
     const Axis &time = analysis->time();
     const FrameStretch frames{time.nearest(visible.low), time.nearest(visible.high) + 1};
     const FrameStretch stretch = closeupStretch(*analysis->input, frames, m_input.framesPerPixel(), byteBudget);
-    if (m_document.isLive() && stretch.begin < m_document.live().goesBackTo)
+    if (stretch.begin < m_document.live().goesBackTo)
         return {};
     if (stretch.isEmpty() || m_analysis != analysis || !m_stretch.contains(frames))
         return stretch;

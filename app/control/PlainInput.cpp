@@ -47,7 +47,7 @@ QString PlainInput::heading() const
 void PlainInput::follow()
 {
     const auto analysis = m_document.lineAnalysis();
-    m_action->setEnabled(analysis && analysis->recording && analysis->settings.family.isNone() && !m_document.isLive());
+    m_action->setEnabled(analysis && analysis->recording && analysis->settings.family.isNone());
     m_action->isEnabled() && !m_action->isChecked() ? m_plain.cancel() : m_plain.ask();
 }
 

@@ -159,6 +159,12 @@ void Document::setLive(LiveView view)
         emit shownEventsChanged();
 }
 
+void Document::followNewest()
+{
+    if (m_isLive)
+        m_viewport.setFollowing(true);
+}
+
 void Document::endLive()
 {
     m_isLive = false;

@@ -103,11 +103,17 @@ public:
     std::shared_ptr<const Analysis> lineAnalysis() const { return isOnePicture() ? m_analysis : nullptr; }
     bool isCurrent() const;
 
+    /// For a long recording, while its first analysis is in progress.
+    void showPictures(const PicturesSoFar &pictures) { emit picturesGrew(pictures); }
     /// State of the live run so far, in place of an analysis. Its recording is in progress.
     void setLive(LiveView view);
     /// Ends the live run; its state stays until something is opened.
     void endLive();
     bool isLive() const { return m_isLive; }
+    /// Whether what is open is analysed on request; a live run analyses what it receives by itself.
+    bool takesAnalyses() const { return !isEmpty() && !m_isLive; }
+    /// Goes to the newest frames of a live run, and moves with them.
+    void followNewest();
     const LiveView &live() const { return m_live; }
     /// The analysis, or, for a live run, one up to at least the given time, from what has been recorded so far, to read
     /// frames and rerun the chain. Null if there is neither, if the live run's settings were different then, or if
@@ -133,7 +139,6 @@ public:
 signals:
     void opened();
     void settingsChanged();
-    /// For a long recording, while its first analysis is in progress.
     void picturesGrew(const faintline::PicturesSoFar &pictures);
     void annotationsChanged();
     void analysisChanged();

@@ -167,7 +167,7 @@ namespace {
     void checkSettled(WindowParts &window)
     {
         const Document &document = window.document();
-        if (!document.analysis() || document.isLive() || !document.isCurrent())
+        if (!document.analysis() || !document.isCurrent())
             throw Error("lesson", "requires a recording whose analysis is finished");
     }
 

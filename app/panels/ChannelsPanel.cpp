@@ -85,7 +85,7 @@ QString ChannelsPanel::obstacle() const
     if (channelCount() == 1)
         return m_document.recording()->info().isComplex ? tr("This recording has only one channel, of I and Q.")
                                                         : tr("This recording has only one channel.");
-    if (m_document.isLive())
+    if (!m_document.live().isEmpty())
         return tr("The channels are shown when the live run has ended.");
     if (!m_document.analysis())
         return tr("The channels are shown when the recording has been analysed.");

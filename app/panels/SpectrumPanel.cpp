@@ -93,12 +93,12 @@ void SpectrumPanel::follow()
 
 SpectrumPanel::Asking::Question SpectrumPanel::question() const
 {
-    if (m_document.isLive() && m_document.viewport().isFollowing())
+    if (m_document.viewport().isFollowing())
         return {}; // a picture that moves is read when it is held
     const Span visible = m_document.viewport().time();
     const auto analysis = m_document.inspectedUntil(visible.high);
     if (!analysis)
-        return m_document.isLive() ? Asking::Question() : QString();
+        return m_document.live().isEmpty() ? QString() : Asking::Question();
     const auto &cursor = m_document.viewport().cursor();
     return std::tuple(analysis, cursor ? cursor->seconds : visible.middle(), visible,
                       m_document.recording() ? chosenLevel() : SpectrumLevel::OverNoise);

@@ -263,9 +263,9 @@ void WhyPanel::resizeEvent(QResizeEvent *event)
 WhyPanel::Asking::Question WhyPanel::question() const
 {
     const auto at = cursorOf(m_document, m_viewports);
-    if (!at || !(m_document.isLive() || m_document.analysis()))
+    if (!at || !m_document.plan())
         return tr("Click a cell to see why it was or was not detected.");
-    const auto analysis = m_document.isLive() ? m_document.inspectedUntil(at->seconds) : m_document.analysis();
+    const auto analysis = m_document.analysis() ? m_document.analysis() : m_document.inspectedUntil(at->seconds);
     if (!analysis)
         return tr("Other settings were in force there.");
     if (!std::holds_alternative<SmdSettings>(analysis->settings.detector))

@@ -118,8 +118,8 @@ void LiveBar::refresh()
     const bool isFollowing = m_document.viewport().isFollowing();
     m_hold->setText(isFollowing ? tr("Hold") : tr("To the newest"));
     m_hear->setText(m_hear->isChecked() ? tr("Mute") : tr("Hear"));
-    m_hold->setVisible(m_document.isLive());
-    m_hear->setVisible(m_document.isLive());
+    m_hold->setVisible(!live.isEmpty());
+    m_hear->setVisible(!live.isEmpty());
     m_stop->setEnabled(m_run.isRunning() && !state.isStopping);
     QStringList words{QString::fromStdString(formatUtc(std::floor(now)))};
     if (!state.format)

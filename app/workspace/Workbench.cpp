@@ -102,7 +102,7 @@ Workbench::Workbench(Document &document, QWidget *parent)
     });
     connect(&document, &Document::liveChanged, this, &Workbench::showLive);
     connect(&document.viewport(), &Viewport::followingChanged, this, [this](bool isFollowing) {
-        if (m_document.isLive())
+        if (!m_document.live().isEmpty())
             emit playingChanged(isFollowing);
     });
     m_output->canvas()->installEventFilter(this);
@@ -128,9 +128,7 @@ void Workbench::linkViews()
     }
     measureBox(m_document, {m_input, m_output});
     connect(m_output, &WaterfallView::shownPictureChanged, this, [this] {
-        if (!isInUse() || (m_document.isLive() && !isStripDue()))
-            return;
-        if (m_document.analysis() || m_document.isLive())
+        if (isInUse() && m_document.plan() && (m_document.analysis() || isStripDue()))
             m_statistic->setProfile(tr("D at the cursor"), m_output->shownPicture(), m_output->frequencyAxis());
     });
     whenInUse(viewport, &Viewport::cursorChanged, &Workbench::readCursor);
