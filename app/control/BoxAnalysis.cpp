@@ -78,20 +78,16 @@ BoxAnalysis::BoxAnalysis(Document &document, AnalysisController &controller, con
     connect(m_visible, &QAction::triggered, this, &BoxAnalysis::analyseVisible);
     connect(m_all, &QAction::triggered, this, &BoxAnalysis::analyseAll);
     for (WaterfallView *view : views)
-        connect(view, &WaterfallView::contextMenuRequested, this,
-                [this](QMenu *menu, double, double) { addActionsTo(*menu); });
+        connect(view, &WaterfallView::contextMenuRequested, this, [this](QMenu *menu, double, double) {
+            menu->addSeparator();
+            menu->addActions(actions());
+        });
     connect(&document.viewport(), &Viewport::selectionChanged, this, &BoxAnalysis::enable);
     connect(&document.viewport(), &Viewport::spanChanged, this, &BoxAnalysis::enable);
     connect(&document, &Document::opened, this, &BoxAnalysis::enable);
     connect(&document, &Document::settingsChanged, this, &BoxAnalysis::enable);
     connect(&document, &Document::analysisChanged, this, &BoxAnalysis::enable);
     enable();
-}
-
-void BoxAnalysis::addActionsTo(QMenu &menu)
-{
-    menu.addSeparator();
-    menu.addActions({m_box, m_visible, m_all});
 }
 
 void BoxAnalysis::analyseBox()

@@ -3,10 +3,10 @@
 #include "plan/AnalysisSettings.h"
 #include "widgets/base/Viewport.h"
 
+#include <QList>
 #include <QObject>
 
 class QAction;
-class QMenu;
 
 namespace faintline {
 
@@ -19,7 +19,7 @@ class WaterfallView;
 AnalysisSettings inBox(AnalysisSettings settings, const Viewport::Box &box, double frameSeconds, double binHz);
 
 /// *Analyse this box*, *Analyse what I see*: restricts the analysis to the measured box or to the visible part, and
-/// returns to the whole recording. Adds actions to the menu, and to those of the pictures.
+/// returns to the whole recording. Adds its actions to the menus of the pictures.
 class BoxAnalysis : public QObject
 {
     Q_OBJECT
@@ -28,7 +28,7 @@ public:
     BoxAnalysis(Document &document, AnalysisController &controller, const std::vector<WaterfallView *> &views,
                 QObject *parent = nullptr);
 
-    void addActionsTo(QMenu &menu);
+    QList<QAction *> actions() const { return {m_box, m_visible, m_all}; }
 
     void analyseBox();
     void analyseVisible();

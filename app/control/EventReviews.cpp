@@ -111,7 +111,7 @@ void EventReviews::addClasses()
         QAction *action = menu->addAction(QString(), this, [this, key] { classify(m_classNames[key - 1]); });
         action->setShortcut(Qt::Key_0 + key);
     }
-    QAction *none = menu->addAction(tr("&None"), this, [this] { classify({}); });
+    QAction *none = menu->addAction(tr("&No class"), this, [this] { classify({}); });
     none->setShortcut(QKeySequence(Qt::SHIFT | Qt::Key_U));
     for (QAction *action : menu->actions()) {
         m_window->addAction(action); // keys of a hidden menu have no effect
@@ -133,12 +133,6 @@ void EventReviews::setClassNames(const QStringList &names)
         m_classes[i]->setText(buttonText(m_classNames.back(), longestClass));
     }
     emit classNamesChanged(m_classNames);
-}
-
-void EventReviews::addActionsTo(QMenu &menu)
-{
-    for (QAction *action : m_actions)
-        action ? menu.addAction(action) : void(menu.addSeparator());
 }
 
 std::vector<int> EventReviews::chosen() const

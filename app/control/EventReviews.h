@@ -34,8 +34,8 @@ public:
     /// Adds maps on which tracks of pings are shown.
     void addMaps(std::vector<PingMap *> maps);
 
-    /// Adds the actions to a menu: those on events first. The table's context menu has the same ones.
-    void addActionsTo(QMenu &menu);
+    /// Of a menu: those on events first; null: a separator. The table's context menu has the same ones.
+    const QList<QAction *> &actions() const { return m_actions; }
 
     void judge(Verdict verdict);
     void merge();
@@ -80,7 +80,7 @@ private:
     QWidget *m_window;
     EventFiles *m_files;
     DrawnLines *m_drawn;
-    QList<QAction *> m_actions;      ///< null: a separator
+    QList<QAction *> m_actions;
     QList<QAction *> m_eventActions; ///< enabled with a selected event
     QAction *m_merge = nullptr;
     QList<QAction *> m_classes; ///< for the keys 1 to 9, and the one that clears the class

@@ -5,7 +5,6 @@
 #include "signal/BandRecording.h"
 
 #include <QActionGroup>
-#include <QMenu>
 
 #include <algorithm>
 #include <cmath>
@@ -21,15 +20,6 @@ namespace {
     constexpr double longestSeconds = 1e9; // long enough to play to the end
     constexpr double speeds[]{0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0};
 
-    QAction *addChoice(QMenu &menu, QActionGroup &group, const QString &text, bool isChecked)
-    {
-        QAction *action = menu.addAction(text);
-        action->setCheckable(true);
-        action->setChecked(isChecked);
-        group.addAction(action);
-        return action;
-    }
-
 } // namespace
 
 Playback::Playback(Document &document, ChooseEvent chooseEvent, QObject *parent)
@@ -42,28 +32,34 @@ Playback::Playback(Document &document, ChooseEvent chooseEvent, QObject *parent)
         emit failed(error);
         goOnSoundless();
     });
+    addActions();
 }
 
-void Playback::addActionsTo(QMenu &menu)
+QAction *Playback::addChoice(QActionGroup *group, const QString &text, bool isChecked, std::function<void(bool)> choose)
 {
-    auto *whats = new QActionGroup(this);
+    auto *action = new QAction(text, this);
+    action->setCheckable(true);
+    action->setChecked(isChecked);
+    action->setActionGroup(group);
+    connect(action, &QAction::triggered, this, std::move(choose));
+    m_actions << action;
+    return action;
+}
+
+void Playback::addActions()
+{
+    auto *whats = new QActionGroup(this), *rates = new QActionGroup(this);
     const auto addWhat = [&](const QString &text, What what) {
-        QAction *choice = addChoice(menu, *whats, text, what == m_what);
-        connect(choice, &QAction::triggered, this, [this, what] { setWhat(what); });
-        return choice;
+        return addChoice(whats, text, what == m_what, [this, what](bool) { setWhat(what); });
     };
     addWhat(tr("&Recording"), What::Recording);
     addWhat(tr("&Band of the box, or what is visible"), What::Band);
     m_lineAction = addWhat(tr("&Line of the event, or at the cursor, at 700 Hz"), What::Line);
-    menu.addSeparator();
-    auto *rates = new QActionGroup(this);
+    m_actions << nullptr;
     for (const double speed : speeds)
-        connect(addChoice(menu, *rates, tr("%1 × speed").arg(speed), speed == m_speed), &QAction::triggered, this,
-                [this, speed] { setSpeed(speed); });
-    menu.addSeparator();
-    QAction *loop = menu.addAction(tr("L&oop"));
-    loop->setCheckable(true);
-    connect(loop, &QAction::toggled, this, &Playback::setLooping);
+        addChoice(rates, tr("%1 × speed").arg(speed), speed == m_speed, [this, speed](bool) { setSpeed(speed); });
+    m_actions << nullptr;
+    addChoice(nullptr, tr("L&oop"), false, [this](bool isLooping) { setLooping(isLooping); });
 }
 
 void Playback::setWhat(What what)
@@ -260,7 +256,7 @@ bool Playback::beginRecording(const MakePlayer &make)
 
 bool Playback::startLive()
 {
-    if (!m_document.isLive())
+    if (m_document.live().isEmpty())
         return false;
     silence();
     setPlaying(false);
@@ -307,7 +303,7 @@ void Playback::follow()
 
 void Playback::followLive()
 {
-    if (!m_document.isLive())
+    if (m_document.live().isEmpty())
         return stop();
     const LiveChoice wanted = liveChoice();
     if (std::exchange(m_wanted, wanted) == wanted

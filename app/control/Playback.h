@@ -7,6 +7,7 @@
 #include "plan/Analysis.h"
 #include "widgets/base/Span.h"
 
+#include <QList>
 #include <QObject>
 #include <QTimer>
 
@@ -15,7 +16,7 @@
 #include <optional>
 
 class QAction;
-class QMenu;
+class QActionGroup;
 
 namespace faintline {
 
@@ -40,8 +41,8 @@ public:
 
     Playback(Document &document, ChooseEvent chooseEvent, QObject *parent = nullptr);
 
-    /// Selects what is played, how fast, and whether in a loop.
-    void addActionsTo(QMenu &menu);
+    /// Select what is played, how fast, and whether in a loop; null: a separator.
+    const QList<QAction *> &actions() const { return m_actions; }
     void setWhat(What what);
     void chooseLine(); ///< as its action does
     void setSpeed(double speed);
@@ -64,6 +65,9 @@ signals:
     void soundless();
 
 private:
+    QAction *addChoice(QActionGroup *group, const QString &text, bool isChecked, std::function<void(bool)> choose);
+    void addActions();
+
     /// What is played of a live run; a change restarts playback.
     struct LiveChoice {
         What what = What::Recording;
@@ -94,6 +98,7 @@ private:
 
     Document &m_document;
     ChooseEvent m_chooseEvent;
+    QList<QAction *> m_actions;
     QAction *m_lineAction = nullptr;
     What m_what = What::Recording;
     double m_speed = 1.0;

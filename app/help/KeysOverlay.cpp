@@ -1,6 +1,5 @@
 #include "app/help/KeysOverlay.h"
 
-#include "app/help/keySections.h"
 #include "widgets/base/Theme.h"
 
 #include <QApplication>
@@ -18,15 +17,15 @@ namespace {
     constexpr int rowHeight = 23;
     constexpr int titleHeight = 34;
     constexpr int sheetMargin = 28;
-    constexpr int gap = 14; ///< between the view's keys and the others
+    constexpr int columnCount = 3;
 
     /// Of a column, in which no text is cut.
     struct ColumnWidths {
-        int keys = 150;
+        int keys = 0;
         int words = 0;
 
         int all() const { return keys + words; }
-        void include(const std::vector<KeySection> &sections)
+        explicit ColumnWidths(const std::vector<KeySection> &sections)
         {
             constexpr int room = 12; // behind a text
             const QFontMetrics bold(Theme::boldFont());
@@ -45,6 +44,15 @@ namespace {
         for (const KeySection &section : sections)
             height += titleHeight + rowHeight * int(section.entries.size());
         return height;
+    }
+
+    /// About equally high.
+    std::vector<std::vector<KeySection>> inColumns(const std::vector<KeySection> &sections)
+    {
+        std::vector<std::vector<KeySection>> columns(columnCount);
+        for (const KeySection &section : sections)
+            std::ranges::min_element(columns, {}, heightOf)->push_back(section);
+        return columns;
     }
 
     void paintColumn(QPainter &painter, const std::vector<KeySection> &sections, QPoint at, const ColumnWidths &widths,
@@ -79,11 +87,13 @@ KeysOverlay::KeysOverlay(QWidget *window) : QWidget(window)
     hide();
 }
 
-void KeysOverlay::toggle(const QString &view)
+void KeysOverlay::toggle(const QString &view, const QList<QAction *> &menus)
 {
-    m_view = view;
     if (isVisible())
         return close();
+    m_sections = generalKeys(view, menus);
+    if (KeySection own = keysOfView(view); !own.entries.empty())
+        m_sections.insert(m_sections.begin(), std::move(own));
     m_previousFocus = QApplication::focusWidget();
     setGeometry(parentWidget()->rect());
     raise();
@@ -107,41 +117,26 @@ bool KeysOverlay::event(QEvent *event)
 
 void KeysOverlay::paintEvent(QPaintEvent *)
 {
-    const Theme::Colours &colours = Theme::colours(*this);
-    // The keys of the view are above, in two halves; those valid everywhere are below.
-    const KeySection own = keysOfView(m_view);
-    const auto rows = std::ptrdiff_t(own.entries.size() + 1) / 2;
-    const KeySection halves[2]{{own.title, {own.entries.begin(), own.entries.begin() + rows}},
-                               {QString(), {own.entries.begin() + rows, own.entries.end()}}};
-    const int ownHeight = own.entries.empty() ? 0 : heightOf({halves[0]}) + gap;
-    const auto general = generalKeys(m_view);
-    ColumnWidths widths;
-    for (int i = 0; i < 2; ++i) {
-        widths.include({halves[i]});
-        widths.include(general[std::size_t(i)]);
+    const auto columns = inColumns(m_sections);
+    int sheetWidth = sheetMargin, sheetHeight = 0;
+    std::vector<ColumnWidths> widths;
+    for (const std::vector<KeySection> &column : columns) {
+        widths.emplace_back(column);
+        sheetWidth += widths.back().all() + sheetMargin;
+        sheetHeight = std::max(sheetHeight, heightOf(column) + 2 * sheetMargin);
     }
-    const QRect sheet(QPoint(),
-                      QSize(2 * widths.all() + 3 * sheetMargin,
-                            ownHeight + std::max(heightOf(general[0]), heightOf(general[1])) + 2 * sheetMargin));
-
     QPainter painter(this);
     painter.fillRect(rect(), QColor(0, 0, 0, 120));
-    const double scale = std::min({1.0, double(width()) / sheet.width(), double(height()) / sheet.height()});
-    painter.translate(0.5 * (width() - scale * sheet.width()), 0.5 * (height() - scale * sheet.height()));
+    const double scale = std::min({1.0, double(width()) / sheetWidth, double(height()) / sheetHeight});
+    painter.translate(0.5 * (width() - scale * sheetWidth), 0.5 * (height() - scale * sheetHeight));
     painter.scale(scale, scale); // on a small screen
-    painter.fillRect(sheet, palette().color(QPalette::Window));
-    painter.setPen(colours.frame);
-    painter.drawRect(sheet.adjusted(0, 0, -1, -1));
-    for (int i = 0; i < 2; ++i) {
-        const QPoint column = sheet.topLeft() + QPoint(sheetMargin + i * (widths.all() + sheetMargin), sheetMargin);
-        if (ownHeight > 0)
-            paintColumn(painter, {halves[i]}, column, widths, colours);
-        paintColumn(painter, general[std::size_t(i)], column + QPoint(0, ownHeight), widths, colours);
-    }
-    if (ownHeight > 0) {
-        painter.setPen(colours.frame);
-        painter.drawLine(sheet.left() + sheetMargin, sheet.top() + sheetMargin + ownHeight - gap / 2,
-                         sheet.right() - sheetMargin, sheet.top() + sheetMargin + ownHeight - gap / 2);
+    painter.fillRect(0, 0, sheetWidth, sheetHeight, palette().color(QPalette::Window));
+    painter.setPen(Theme::colours(*this).frame);
+    painter.drawRect(0, 0, sheetWidth - 1, sheetHeight - 1);
+    QPoint at(sheetMargin, sheetMargin);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        paintColumn(painter, columns[i], at, widths[i], Theme::colours(*this));
+        at.rx() += widths[i].all() + sheetMargin;
     }
 }
 

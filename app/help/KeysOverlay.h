@@ -1,7 +1,11 @@
 #pragma once
 
+#include "app/help/keySections.h"
+
 #include <QPointer>
 #include <QWidget>
+
+#include <vector>
 
 namespace faintline {
 
@@ -13,8 +17,8 @@ class KeysOverlay : public QWidget
 public:
     explicit KeysOverlay(QWidget *window);
 
-    /// `view`: its keys come first (keysOfView).
-    void toggle(const QString &view = {});
+    /// `view`: its keys come first (keysOfView); `menus`: those of the window, whose commands follow.
+    void toggle(const QString &view, const QList<QAction *> &menus);
 
 protected:
     bool event(QEvent *event) override;
@@ -27,7 +31,7 @@ private:
     void close();
 
     QPointer<QWidget> m_previousFocus;
-    QString m_view;
+    std::vector<KeySection> m_sections;
 };
 
 } // namespace faintline

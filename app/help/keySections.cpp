@@ -2,7 +2,8 @@
 
 #include "app/base/tr.h"
 
-#include <QApplication>
+#include <QAction>
+#include <QMenu>
 #include <QStringList>
 
 #include <string_view>
@@ -43,72 +44,24 @@ namespace {
         return section;
     }
 
-    const Section &look()
+    /// Keys of the pictures that no menu has.
+    const Section &pictures()
     {
-        static const Section section{"Look",
-                                     {{"0", "show all"},
-                                      {"Backspace", "zoom back"},
-                                      {"Arrows", "move the cursor by a cell, with Ctrl by ten"},
-                                      {"O", "next orientation"},
-                                      {"Shift + L", "logarithmic or linear frequency"},
-                                      {"Shift + R", "radio frequency or offset"},
-                                      {"C", "next colour map"},
+        static const Section section{"Keys of the pictures",
+                                     {{"Arrows", "move the cursor by a cell, with Ctrl by ten"},
                                       {"[  ]", "black level down, up"},
                                       {"{  }", "white level down, up"},
-                                      {"A   Shift + D", "automatic range; input as plain dB"},
-                                      {"F", "what was found, or the statistic D"},
-                                      {"V   Shift + V", "next output layer; over the statistic"},
-                                      {"S   Shift + S", "state space under the cursor; spectrum"}}};
-        return section;
-    }
-
-    const Section &detect()
-    {
-        static const Section section{"Detect",
-                                     {{",  .", "threshold down, up by a quarter nat"},
-                                      {"N   Shift + N", "next, previous event"},
-                                      {"Y  X  U", "accept, reject the event; undecided"},
-                                      {"1 … 9   Shift + U", "class of the event, none; a lesson’s answer"},
-                                      {"E   G   Shift + G", "note on the event; merge, separate several"},
-                                      {"W", "why detected, or why not"},
-                                      {"Ctrl + D   Ctrl + Shift + D", "draw a line by hand; place sonar targets"},
-                                      {"D   T", "Doppler fit to the event; straighten along its track"},
-                                      {"Ctrl + B", "keep as A for comparison"},
-                                      {"M   B   Ctrl + Return", "measure a box; annotate, analyse it"},
-                                      {"Alt + Return", "analyse what is visible"},
-                                      {"K", "cursor to the nearest peak"},
-                                      {"H   Shift + H", "harmonics of the cursor's frequency; hear the line"},
-                                      {"I", "sidebands: drag one, or Alt + Left, Right"},
-                                      {"Space", "play as sound; Play > Play what"},
-                                      {"Space   End", "live: hold the picture, go to the newest frames"},
-                                      {"J  L", "one frame, ping or stage back, forward"},
-                                      {"Ctrl + R", "run again"},
-                                      {"Escape", "stop, or clear the marks"}}};
+                                      {"Alt + Left, Right", "move the sidebands"},
+                                      {"Space", "live: hold the picture"},
+                                      {"Escape", "clear the marks"},
+                                      {"1 … 9", "a lesson’s answer"}}};
         return section;
     }
 
     const Section &pings()
     {
-        static const Section section{"Sonar pings",
-                                     {{"P", "view from above, or range over bearing"},
-                                      {"J  L", "one ping back, forward"},
-                                      {"Space   Shift + Space", "play, play backwards"}}};
-        return section;
-    }
-
-    const Section &file()
-    {
-        static const Section section{"File and help",
-                                     {{"Ctrl + O", "open; or drop a file on the window"},
-                                      {"Ctrl + Page Down, Up", "next, previous file of the folder"},
-                                      {"Ctrl + S", "save the session"},
-                                      {"Ctrl + Z   Ctrl + Y", "undo, redo a setting"},
-                                      {"Ctrl + K", "find a command by name"},
-                                      {"F1   ?", "this list of keys"},
-                                      {"Shift + F1", "the equation of the view"},
-                                      {"F5   F6", "presentation, Escape leaves it; light or dark"},
-                                      {"F11", "maximise the panel with the focus or opened last, or put it back"},
-                                      {"Ctrl + Q", "quit"}}};
+        static const Section section{
+            "Sonar pings", {{"P", "view from above, or range over bearing"}, {"Shift + Space", "play backwards"}}};
         return section;
     }
 
@@ -116,7 +69,7 @@ namespace {
     {
         Section section = mouse();
         section.title = title;
-        section.entries.insert(section.entries.end(), look().entries.begin(), look().entries.end());
+        section.entries.insert(section.entries.end(), pictures().entries.begin(), pictures().entries.end());
         return section;
     }
 
@@ -138,27 +91,18 @@ namespace {
             {{"map", "polar"},
              {"Here: a ping's map",
               {{"P", "view from above, or range over bearing"},
-               {"J  L", "one ping back, forward"},
-               {"Space   Shift + Space", "play, play backwards"},
+               {"Shift + Space", "play backwards"},
                {"Click, arrows", "place, move the cursor"},
                {"Ctrl + wheel", "zoom about the pointer"},
                {"Drag", "pan"},
-               {"0   Backspace", "show all, zoom back"},
-               {"S", "state space under the cursor, and its law"},
-               {"V   Shift + V", "next output layer; over the statistic"},
-               {"Y  X  U", "accept, reject the track here; undecided"}}}},
+               {"Right button", "accept, reject the track here"}}}},
             {{"threshold"},
              {"Here: the threshold curve",
-              {{"Drag anywhere", "move the threshold"},
-               {",  .", "threshold down, up by a quarter nat"},
-               {"Right button", "nats, Pfa per cell, false alarms/h; save"}}}},
+              {{"Drag anywhere", "move the threshold"}, {"Right button", "nats, Pfa per cell, false alarms/h; save"}}}},
             {{"events"},
              {"Here: the table of events",
-              {{"N   Shift + N", "next, previous event"},
-               {"Enter, click", "go to the event"},
+              {{"Enter, click", "go to the event"},
                {"Click on a title", "sort by it"},
-               {"Y  X  U", "accept, reject; undecided"},
-               {"E   G   Shift + G", "note; merge, separate several"},
                {"In the filter", "f>1000 stat>25 open: all must hold"}}}},
             {{"pd", "asn", "prior", "latency", "spectrum", "doppler"},
              {"Here: a chart",
@@ -174,15 +118,12 @@ namespace {
               {{"Left  Right", "from value to value"},
                {"Up  Down", "from curve to curve"},
                {"Click, Enter", "on a value: apply it"}}}},
-            {{"compare"},
-             {"Here: A against B",
-              {{"Ctrl + B", "keep as A"}, {"Ctrl + Shift + B", "swap A and B"}, {"Click on an event", "go there"}}}},
+            {{"compare"}, {"Here: A against B", {{"Click on an event", "go there"}}}},
             {{"walk", "sequential"},
              {"Here: the sequential test",
               {{"Click on a walk", "follow this test"},
                {"Up  Down", "the previous, next test"},
-               {"J  L", "one stage back, forward"},
-               {"Ctrl + T", "open this panel"}}}},
+               {"J  L", "one stage back, forward"}}}},
             {{"stopping"},
              {"Here: stopping stages",
               {{"Click on a bar", "a test that stopped at this stage"}, {"J  L", "one stage back, forward"}}}},
@@ -221,6 +162,26 @@ namespace {
                || view == QLatin1String("slice") || view == QLatin1String("channels");
     }
 
+    /// The commands of a menu and of its submenus that have keys; keys of successive digits are one entry.
+    void addKeys(KeySection &section, const QMenu &menu)
+    {
+        QString digits; // of the entries before
+        for (const QAction *action : menu.actions()) {
+            if (action->menu())
+                addKeys(section, *action->menu());
+            QStringList keys;
+            for (const QKeySequence &key : action->shortcuts())
+                keys << key.toString(QKeySequence::NativeText).replace(QLatin1Char('+'), QLatin1String(" + "));
+            const bool isDigit = keys.size() == 1 && keys[0].size() == 1 && keys[0][0].isDigit();
+            if (isDigit && !digits.isEmpty())
+                section.entries.back() = {digits.at(0) + QStringLiteral(" … ") + keys[0],
+                                          plainText(*menu.menuAction())};
+            else if (!keys.isEmpty())
+                section.entries.push_back({keys.mid(0, 2).join(QStringLiteral("   ")), plainText(*action)});
+            digits = isDigit ? digits + keys[0] : QString();
+        }
+    }
+
 } // namespace
 
 KeySection keysOfView(const QString &view)
@@ -231,13 +192,23 @@ KeySection keysOfView(const QString &view)
     return {};
 }
 
-std::array<std::vector<KeySection>, 2> generalKeys(const QString &view)
+QString plainText(const QAction &action)
 {
-    if (saysAllOfAWaterfall(view))
-        return {{{spoken(detect())}, {spoken(pings()), spoken(file())}}};
-    if (view == QLatin1String("map"))
-        return {{{spoken(mouse()), spoken(look())}, {spoken(detect()), spoken(file())}}};
-    return {{{spoken(mouse()), spoken(look())}, {spoken(detect()), spoken(pings()), spoken(file())}}};
+    return action.text().remove(QLatin1Char('&')).remove(QStringLiteral("…"));
+}
+
+std::vector<KeySection> generalKeys(const QString &view, const QList<QAction *> &menus)
+{
+    std::vector<KeySection> result;
+    if (!saysAllOfAWaterfall(view))
+        result = {spoken(mouse()), spoken(pictures())};
+    if (view != QLatin1String("map"))
+        result.push_back(spoken(pings()));
+    for (const QAction *menu : menus) {
+        result.push_back({plainText(*menu), {}});
+        addKeys(result.back(), *menu->menu());
+    }
+    return result;
 }
 
 } // namespace faintline

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <QList>
 #include <QString>
 
-#include <array>
 #include <vector>
+
+class QAction;
 
 namespace faintline {
 
@@ -17,10 +19,14 @@ struct KeySection {
     std::vector<Entry> entries;
 };
 
-/// Keys in a view, by its name (currentView); without entries if there are none.
+/// Keys and mouse in a view that are no commands of the window, by its name (currentView); without entries if there are
+/// none.
 KeySection keysOfView(const QString &view);
 
-/// Keys everywhere, in two columns, without those of the view's own section.
-std::array<std::vector<KeySection>, 2> generalKeys(const QString &view);
+/// A command's text without its mark of a key, and without the dots that announce a dialog.
+QString plainText(const QAction &action);
+
+/// Keys everywhere, without those of the view's own section: of the pictures, and the commands of the menus.
+std::vector<KeySection> generalKeys(const QString &view, const QList<QAction *> &menus);
 
 } // namespace faintline

@@ -1,5 +1,7 @@
 #include "app/window/CommandPalette.h"
 
+#include "app/help/keySections.h"
+
 #include <QAction>
 #include <QApplication>
 #include <QEvent>
@@ -19,11 +21,6 @@ namespace {
     constexpr int paletteWidth = 520;
     constexpr int paletteHeight = 360;
     constexpr int bestOfLetters = 4; ///< score of a letter that begins a word
-
-    QString plain(QString text)
-    {
-        return text.remove(QLatin1Char('&')).remove(QStringLiteral("…"));
-    }
 
 } // namespace
 
@@ -68,13 +65,11 @@ void CommandPalette::collect(const QList<QAction *> &actions, const QString &pat
     for (QAction *action : actions) {
         if (action->isSeparator() || !action->isVisible() || !action->isEnabled())
             continue;
-        const QString name = path + plain(action->text());
-        if (QMenu *menu = action->menu()) {
-            emit menu->aboutToShow(); // some are filled only then
+        const QString name = path + plainText(*action);
+        if (const QMenu *menu = action->menu())
             collect(menu->actions(), name + QStringLiteral(": "));
-        } else {
+        else
             m_commands.append({name, action});
-        }
     }
 }
 

@@ -14,6 +14,7 @@
 #include "app/help/KeysOverlay.h"
 #include "app/lessons/Lesson.h"
 #include "app/lessons/LessonGuide.h"
+#include "app/lessons/LessonList.h"
 #include "app/panels/ChannelsPanel.h"
 #include "app/panels/ComparePanel.h"
 #include "app/panels/DopplerPanel.h"
@@ -22,6 +23,7 @@
 #include "app/panels/HandLinePanel.h"
 #include "app/panels/LatencyPanel.h"
 #include "app/panels/NoiseFitPanel.h"
+#include "app/panels/PipelinePanel.h"
 #include "app/panels/ReproductionPanel.h"
 #include "app/panels/SpectrumPanel.h"
 #include "app/panels/StateSlicePanel.h"
@@ -32,14 +34,19 @@
 #include "app/views/WindowViews.h"
 #include "app/welcome/WelcomePage.h"
 #include "app/window/CommandPalette.h"
+#include "app/window/Commands.h"
 #include "app/window/Panels.h"
+#include "app/window/ToolBar.h"
 #include "app/window/TrialViewer.h"
 #include "app/window/currentView.h"
+#include "app/window/settingCommands.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
 #include "noise/NoiseNormaliser.h"
 #include "widgets/base/ReadOut.h"
 #include "widgets/base/familyWords.h"
+#include "widgets/base/icon.h"
+#include "widgets/events/EventCard.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"
 #include "widgets/waterfall/OverviewStrip.h"
@@ -96,8 +103,11 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recover
     buildBottom();
     buildStatusBar();
     m_lessons = new LessonGuide(*this, *this);
-    buildMenus();
+    m_snrBandwidthHz = m_memory.snrBandwidthHz();
+    m_commands = makeCommands(*this);
+    nameWhatHolds();
     buildToolBar();
+    connectCommands();
     connectDocument();
     connectController();
     connectWelcome();
@@ -110,6 +120,7 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recover
     m_keys = new KeysOverlay(this);
     m_equation = new EquationSheet(this);
     m_palette = new CommandPalette(this);
+    m_settingsMenu = new QMenu(tr("Setting"), this);
     resize(1440, 900);
     m_panels->rememberDefault();
     restoreLayout();
@@ -131,6 +142,97 @@ MainWindow::~MainWindow()
     m_trials.reset();
 }
 
+/// Names focusable container widgets after the panel that contains them.
+void MainWindow::nameWhatHolds()
+{
+    for (QWidget *widget : findChildren<QWidget *>()) {
+        const bool isHolder = widget->inherits("QScrollArea") || widget->inherits("QTabWidget");
+        if (!isHolder || !widget->accessibleName().isEmpty())
+            continue;
+        QWidget *panel = widget->parentWidget();
+        while (panel && panel->windowTitle().isEmpty() && panel != this)
+            panel = panel->parentWidget();
+        widget->setAccessibleName(panel && panel != this ? panel->windowTitle() : tr("Welcome"));
+    }
+}
+
+void MainWindow::buildToolBar()
+{
+    auto *bar = new ToolBar(tr("Tools"));
+    addToolBar(bar);
+    bar->setObjectName(QStringLiteral("toolBar"));
+    const auto add = [this, bar](std::initializer_list<const char *> names, bool keepsText) {
+        for (const char *name : names)
+            bar->addAction(m_commands->action(name), QLatin1String(name), keepsText);
+    };
+    add({"open"}, true);
+    QAction *examples = m_commands->menu(tr("&File/Exa&mples"))->menuAction();
+    examples->setToolTip(tr("Open a recording or a simulated scene that comes with the program"));
+    bar->addAction(examples, QStringLiteral("scenario"), true);
+    bar->addSeparator();
+    add({"run", "stop"}, true);
+    bar->addSeparator();
+    add({"orientation", "colours", "show-all"}, false);
+    bar->addSeparator();
+    add({"step-back", "play", "step-forward"}, false);
+    bar->addSeparator();
+    add({"next-event"}, false);
+}
+
+/// What is on or off, and shown or changed in other places as well.
+void MainWindow::connectCommands()
+{
+    const auto toggle = [this](const char *name, auto set) {
+        QAction *action = m_commands->action(name);
+        action->setCheckable(true);
+        connect(action, &QAction::toggled, this, set);
+        return action;
+    };
+    WaterfallView *input = m_workbench->input(), *output = m_workbench->output();
+    QAction *harmonics = toggle("harmonics", [input, output](bool isOn) {
+        input->setHarmonics(isOn);
+        output->setHarmonics(isOn);
+    });
+    connect(input, &WaterfallView::harmonicsChanged, harmonics, &QAction::setChecked);
+    connect(output, &WaterfallView::harmonicsChanged, harmonics, &QAction::setChecked);
+    QAction *sidebands = toggle("sidebands", [output](bool isOn) { output->setSidebands(isOn); });
+    connect(output, &WaterfallView::sidebandsChanged, sidebands,
+            [sidebands](double hz) { sidebands->setChecked(hz > 0.0); });
+    toggle("regulation", [this](bool isOn) { m_workbench->setRegulationWanted(isOn); })->setChecked(true);
+    m_commands->action("iq")->setCheckable(true);
+    QAction *stop = m_commands->action("stop");
+    stop->setEnabled(false);
+    m_events->card().setActions({m_commands->action("why"), m_commands->action("hear"), harmonics,
+                                 m_commands->action("straighten"), m_commands->action("doppler")});
+
+    QAction *play = toggle("play", &MainWindow::setPlaying);
+    connect(play, &QAction::toggled, play,
+            [play](bool isOn) { play->setIcon(icon(isOn ? QStringLiteral("pause") : QStringLiteral("play"))); });
+    connect(m_playback, &Playback::playingChanged, play, &QAction::setChecked);
+    // Space also presses the focused button, so it plays only in the pictures.
+    play->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+    removeAction(play);
+    for (Bench *one : std::initializer_list<Bench *>{m_workbench, m_pings}) {
+        connect(one, &Bench::playingChanged, play, &QAction::setChecked);
+        one->addAction(play);
+    }
+
+    QAction *presenting = toggle("present", [this, stop](bool isPresenting) {
+        stop->setEnabled(isPresenting || m_controller.isBusy());
+        m_panels->setPresenting(isPresenting);
+        Theme::setPlotScale(isPresenting ? 1.5 : 1.0);
+        m_lessons->present(isPresenting);
+    });
+    connect(&m_controller, &AnalysisController::busyChanged, stop,
+            [stop, presenting](bool isBusy) { stop->setEnabled(isBusy || presenting->isChecked()); });
+    connect(m_lessons, &LessonGuide::finished, this, [this](const QString &path) {
+        m_memory.addDoneLesson(path);
+        m_lessonList->setDone(m_memory.doneLessons());
+        m_commands->refresh();
+    });
+    m_lessonList->setDone(m_memory.doneLessons());
+}
+
 /// The document stays open.
 void MainWindow::putBenchAside()
 {
@@ -141,9 +243,7 @@ void MainWindow::putBenchAside()
     m_legend->hide();
     for (QToolBar *bar : m_bottomBars)
         bar->hide();
-    for (QAction *action : m_viewActions)
-        action->setEnabled(false);
-    m_panelsMenu->setEnabled(false);
+    m_commands->setShown(false);
 }
 
 void MainWindow::showWelcome()
@@ -151,7 +251,7 @@ void MainWindow::showWelcome()
     if (m_live->isRunning())
         return void(mayLeave(tr("going to the welcome page"), [] {}));
     m_lessons->leave();
-    m_presentAction->setChecked(false);
+    m_commands->action("present")->setChecked(false);
     putBenchAside();
     m_welcome->setRecent(m_memory.recent());
 }
@@ -167,9 +267,7 @@ void MainWindow::showWorkbench()
         takeLayout(m_memory.isKept() ? Panels::analyse() : Panels::researcher());
     showBars();
     m_legend->show();
-    for (QAction *action : m_viewActions)
-        action->setEnabled(true);
-    m_panelsMenu->setEnabled(true);
+    m_commands->setShown(true);
     bench().firstView()->setFocus();
 }
 
@@ -294,7 +392,7 @@ void MainWindow::closeEvent(QCloseEvent *event)
 
 bool MainWindow::focusNextPrevChild(bool next)
 {
-    const QWidget *first = focusWidget();
+    const QWidget *first = nullptr; // of those behind a tab
     while (QMainWindow::focusNextPrevChild(next)) {
         if (focusWidget() == first || !isBehindTab(focusWidget()))
             return true;
@@ -306,12 +404,12 @@ bool MainWindow::focusNextPrevChild(bool next)
 void MainWindow::takeLayout(const QString &name)
 {
     m_panels->takeLayout(name);
-    m_regulationAction->setChecked(name != Panels::analyse());
+    m_commands->action("regulation")->setChecked(name != Panels::analyse());
 }
 
 void MainWindow::saveLayout()
 {
-    if (m_pages->currentWidget() == m_welcome || m_presentAction->isChecked())
+    if (m_pages->currentWidget() == m_welcome || m_commands->action("present")->isChecked())
         return;
     m_panels->restoreMaximised();
     const ViewState view = m_workbench->viewState();
@@ -325,7 +423,7 @@ void MainWindow::saveLayout()
     layout.isRadioAxis = view.isRadioAxis;
     const std::string_view layer = outputLayerNames[std::size_t(m_workbench->layers().chosen())];
     layout.layer = QString::fromLatin1(layer.data(), qsizetype(layer.size()));
-    layout.isRegulationShown = m_regulationAction->isChecked();
+    layout.isRegulationShown = m_commands->action("regulation")->isChecked();
     m_memory.setLayout(layout);
 }
 
@@ -338,7 +436,7 @@ void MainWindow::restoreLayout()
     if (!layout.pingSplitters.isEmpty())
         m_pings->restoreSplitters(layout.pingSplitters);
     m_workbench->restore({{}, {}, layout.orientation, layout.colourMap, layout.isLogarithmic, layout.isRadioAxis});
-    m_regulationAction->setChecked(layout.isRegulationShown);
+    m_commands->action("regulation")->setChecked(layout.isRegulationShown);
     const auto layer = std::ranges::find(outputLayerNames, layout.layer.toStdString());
     if (layer != outputLayerNames.end())
         m_workbench->layers().setLayer(OutputLayer(layer - outputLayerNames.begin()));
@@ -422,6 +520,18 @@ void MainWindow::showEquation()
     const bool isMap = bench().firstViewName() == QLatin1String("map")
                        && (name == QLatin1String("input") || name == QLatin1String("output"));
     m_equation->toggle(equationOf(isMap ? QStringLiteral("map") : name, detector), m_lessons->widgetNamed(name));
+}
+
+void MainWindow::showPalette()
+{
+    m_commands->refresh();
+    m_settingsMenu->clear();
+    QList<QAction *> commands = menuBar()->actions();
+    if (m_pages->currentWidget() != m_welcome) {
+        listSettings(*m_settingsMenu, *m_pipeline->form(), [this] { m_panels->show(m_pipeline); });
+        commands << m_settingsMenu->menuAction();
+    }
+    m_palette->open(commands);
 }
 
 void MainWindow::about()

@@ -21,6 +21,7 @@ class ActivityBar;
 class BoxAnalysis;
 class ChartMenus;
 class CommandPalette;
+class Commands;
 class EquationSheet;
 class KeysOverlay;
 class ListenDialog;
@@ -88,6 +89,8 @@ protected:
     bool focusNextPrevChild(bool next) override;
 
 private:
+    friend class CommandTable;
+
     void showBars();
     void putBenchAside();
     void buildCentre();
@@ -96,24 +99,9 @@ private:
     void buildSettingsDock();
     void buildBottom();
     void buildStatusBar();
-    void buildMenus();
-    void buildFileMenu();
     void nameWhatHolds();
-    void buildEditMenu();
-    void buildViewMenu();
-    void addFrequencyActions(QMenu &menu);
-    void addLayerMenu(QMenu &menu);
-    void addPresentation(QMenu &menu);
-    void addLessonMenu(QMenu &menu);
-    void addSnrMenu(QMenu &menu);
-    void takeLayout(const QString &name);
-    void addThemeMenu(QMenu &menu);
-    void buildPlayMenu();
-    void buildLinesMenu();
-    void buildAnalyseMenu();
-    void addReproductions(QMenu &help);
-    void buildHelpMenu();
     void buildToolBar();
+    void connectCommands();
     void connectDocument();
     void connectController();
     void connectWelcome(); ///< and the lessons
@@ -123,8 +111,6 @@ private:
     void connectTargets();
     void connectLive();
     void connectEvaluation();
-    /// An action that is available only while a recording is shown.
-    QAction *addViewAction(QMenu &menu, const QString &text, const QKeySequence &key, std::function<void()> action);
 
     void showWorkbench();
     void showAnalysis();
@@ -144,6 +130,8 @@ private:
     void showError(const Error &error);
     void showFailure(const Error &error);
     void offerIq();
+    void takeAsIq(bool isIq);
+    void takeLayout(const QString &name);
     /// Gives the whole window to a panel that needs no recording, until one is opened.
     void showAlone(QWidget *panel, const QString &title, const QString &hint);
     void chooseFile();
@@ -163,7 +151,7 @@ private:
     void showEquation(); ///< of the current view
     void showPalette();
 
-    void fillRecentMenu();
+    void fillRecentMenu(QMenu &menu);
     void saveLayout();
     void restoreLayout();
 
@@ -192,22 +180,17 @@ private:
     OverviewStrip *m_overview = nullptr;
     ActivityBar *m_activity = nullptr;
     QLabel *m_hint = nullptr;
-    QAction *m_harmonicsAction = nullptr;
-    QAction *m_regulationAction = nullptr;
     double m_snrBandwidthHz = 0.0; ///< 0: of a bin
     QLabel *m_legend = nullptr;    ///< of the marks in the pictures
     KeysOverlay *m_keys = nullptr;
     EquationSheet *m_equation = nullptr;
+    Commands *m_commands = nullptr;
     CommandPalette *m_palette = nullptr;
     QMenu *m_settingsMenu = nullptr; ///< of the palette
-    QMenu *m_recentMenu = nullptr;
-    QMenu *m_panelsMenu = nullptr;
-    QAction *m_stopAction = nullptr;
-    QAction *m_iqAction = nullptr;
-    QAction *m_playAction = nullptr;
-    QAction *m_presentAction = nullptr;
-    std::vector<QAction *> m_viewActions;
     std::vector<QToolBar *> m_bottomBars;
 };
+
+/// The table of the window's commands, as entries of its menus.
+Commands *makeCommands(MainWindow &window);
 
 } // namespace faintline

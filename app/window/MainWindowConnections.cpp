@@ -33,6 +33,7 @@
 #include "app/views/WindowViews.h"
 #include "app/welcome/WelcomePage.h"
 #include "app/window/ActivityBar.h"
+#include "app/window/Commands.h"
 #include "app/window/FileDrop.h"
 #include "app/window/Panels.h"
 #include "app/window/TrialViewer.h"
@@ -96,7 +97,6 @@ void MainWindow::connectDocument()
             one->setEmptySentence(tr("Estimating the noise of %1 …").arg(m_document.sourceName()));
         if (m_pages->currentWidget() != m_welcome)
             showWorkbench();
-        m_iqAction->setChecked(m_document.source().options.iq);
         m_workbench->setPlaying(false);
         m_pings->setPlaying(false);
         const QString path = m_document.sessionPath().isEmpty() ? m_document.sourcePath() : m_document.sessionPath();
@@ -131,7 +131,6 @@ void MainWindow::connectDocument()
 void MainWindow::connectController()
 {
     m_activity->follow(m_controller.runner());
-    connect(&m_controller, &AnalysisController::busyChanged, m_stopAction, &QAction::setEnabled);
     connect(&m_controller, &AnalysisController::busyChanged, this, [this](bool isBusy) {
         if (!isBusy && !m_document.isEmpty() && !m_document.analysis())
             m_workbench->output()->setEmptySentence(tr("Stopped before the detector finished."));
@@ -191,17 +190,14 @@ void MainWindow::connectWelcome()
     connect(m_lessons, &LessonGuide::runningChanged, this, [this](bool isRunning) {
         const auto isOfResets = [](const LessonStep &step) { return step.point == QLatin1String("regulation"); };
         m_workbench->setRegulationWanted((isRunning && std::ranges::any_of(m_lessons->lesson().steps, isOfResets))
-                                         || m_regulationAction->isChecked());
+                                         || m_commands->action("regulation")->isChecked());
         if (isRunning)
-            m_presentAction->setEnabled(true); // also of scans, which have no pictures of their own
+            m_commands->action("present")->setEnabled(true); // also of scans, which have no pictures of their own
     });
     connect(m_lessons, &LessonGuide::lessonRequested, this,
             [this](int lesson) { startLesson(lessons()[std::size_t(lesson)]); });
     connect(m_lessons, &LessonGuide::written, this, &MainWindow::showWritten);
     connect(m_lessons, &LessonGuide::failed, this, &MainWindow::showError);
-    connect(m_presentAction, &QAction::toggled, this,
-            [](bool isPresenting) { Theme::setPlotScale(isPresenting ? 1.5 : 1.0); });
-    connect(m_presentAction, &QAction::toggled, m_lessons, &LessonGuide::present);
 }
 
 /// Connects everything in which an event can be selected, and what is done with events.

@@ -18,6 +18,7 @@
 #include "app/panels/SequentialPanel.h"
 #include "app/panels/SurveyPanel.h"
 #include "app/welcome/WelcomePage.h"
+#include "app/window/Commands.h"
 #include "app/window/Panels.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
@@ -135,7 +136,7 @@ void MainWindow::newScene()
 
 void MainWindow::openScans(const ScanTest &test)
 {
-    m_presentAction->setEnabled(true);
+    m_commands->action("present")->setEnabled(true);
     if (m_lessons->isRunning())
         putBenchAside(); // an open recording has nothing to do with the lesson
     showAlone(m_sequential, tr("Radar scans — Faintline"),
@@ -244,28 +245,36 @@ void MainWindow::showWritten(const QString &path)
                             labelText(pathBytes(absolutePath(path)), longestPath));
 }
 
+void MainWindow::takeAsIq(bool isIq)
+{
+    OpenOptions options = m_document.source().options;
+    options.iq = isIq;
+    m_controller.reopen(options);
+}
+
 void MainWindow::offerIq()
 {
-    const OpenOptions options = m_document.source().options;
+    QAction *action = m_commands->action("iq");
+    const bool isIq = m_document.source().options.iq;
+    action->setChecked(isIq);
     if (!m_document.recording() || m_live->isRunning())
-        return m_iqAction->setVisible(false);
+        return action->setVisible(false);
     const RecordingInfo &info = m_document.recording()->info();
     const bool isPossible = !m_document.source().scene && !info.isComplex && info.channelCount % 2 == 0;
-    m_iqAction->setVisible(isPossible || options.iq);
+    action->setVisible(isPossible || isIq);
     if (isPossible && info.channelCount == 2)
         m_messages->showMessage(MessageBar::Kind::Notice, m_document.sourceName(),
                                 tr("Two channels; showing the first. Treat them as I/Q?"), tr("Treat as I/Q"),
-                                [this] { m_iqAction->trigger(); });
+                                [this] { takeAsIq(true); });
 }
 
-void MainWindow::fillRecentMenu()
+void MainWindow::fillRecentMenu(QMenu &menu)
 {
-    m_recentMenu->clear();
     for (const QString &path : m_memory.recent())
-        m_recentMenu->addAction(buttonText(distinctLabel(path, m_memory.recent())), this, [this, path] { open(path); })
+        menu.addAction(buttonText(distinctLabel(path, m_memory.recent())), this, [this, path] { open(path); })
             ->setToolTip(asHtml(labelText(pathBytes(path), longestPath)));
-    if (m_recentMenu->isEmpty())
-        m_recentMenu->addAction(tr("No recent files"))->setEnabled(false);
+    if (menu.isEmpty())
+        menu.addAction(tr("No recent files"))->setEnabled(false);
 }
 
 } // namespace faintline

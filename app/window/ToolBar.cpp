@@ -2,6 +2,7 @@
 
 #include "widgets/base/icon.h"
 
+#include <QAction>
 #include <QToolButton>
 
 namespace faintline {
@@ -17,17 +18,11 @@ void ToolBar::addAction(QAction *action, const QString &iconName, bool keepsText
 {
     action->setIcon(icon(iconName));
     action->setIconVisibleInMenu(false);
+    if (!action->shortcut().isEmpty())
+        action->setToolTip(tr("%1 (%2)").arg(action->toolTip(), action->shortcut().toString(QKeySequence::NativeText)));
     QToolBar::addAction(action);
-    if (!keepsText)
-        m_shortable.push_back(qobject_cast<QToolButton *>(widgetForAction(action)));
-    chooseStyle();
-}
-
-void ToolBar::addButton(QToolButton *button, const QString &iconName, bool keepsText)
-{
-    button->setIcon(icon(iconName));
-    addWidget(button);
-    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    auto *button = qobject_cast<QToolButton *>(widgetForAction(action));
+    button->setPopupMode(QToolButton::InstantPopup);
     if (!keepsText)
         m_shortable.push_back(button);
     chooseStyle();

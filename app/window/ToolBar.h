@@ -16,10 +16,8 @@ class ToolBar : public QToolBar
 public:
     explicit ToolBar(const QString &title, QWidget *parent = nullptr);
 
-    /// Appends an action with an icon of resources/icons.
+    /// Appends an action with an icon of resources/icons; its tooltip names its key.
     void addAction(QAction *action, const QString &iconName, bool keepsText);
-    /// Appends a button, such as one with a menu.
-    void addButton(QToolButton *button, const QString &iconName, bool keepsText);
 
 protected:
     void resizeEvent(QResizeEvent *event) override;

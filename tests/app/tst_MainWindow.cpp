@@ -675,7 +675,7 @@ private slots:
             const QAbstractItemModel &table = *window->eventTable().table()->model();
             const auto snr = [&] { return table.index(0, EventModel::Snr).data().toDouble(); };
             const double ofABin = snr();
-            choose(*window, "of 2500 Hz");
+            choose(*window, "of 2500 Hz, as WSJT-X gives it");
             const Event &event = window->document().shownEvents().front();
             // A Hann window's bin has a noise bandwidth of 1.5 resolution cells.
             QVERIFY(std::abs(snr() - ofABin - 10.0 * std::log10(1.5 / (2500.0 * event.windowSeconds))) < 0.11);
