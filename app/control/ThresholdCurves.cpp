@@ -1,10 +1,14 @@
 #include "app/control/ThresholdCurves.h"
 
+#include "app/control/AnalysisController.h"
 #include "app/document/Document.h"
+#include "app/document/statisticUnit.h"
 #include "evaluate/theory/closedForm.h"
 #include "widgets/plot/ExceedancePlot.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace faintline {
 
@@ -18,14 +22,46 @@ namespace {
         return polygon;
     }
 
+    constexpr std::pair<ExceedancePlot::Unit, DecideSettings::By> units[]{
+        {ExceedancePlot::Unit::Nats, DecideSettings::By::Nats},
+        {ExceedancePlot::Unit::PfaPerCell, DecideSettings::By::PfaPerCell},
+        {ExceedancePlot::Unit::FalseAlarmsPerHour, DecideSettings::By::FalseAlarmsPerHour}};
+
 } // namespace
 
-ThresholdCurves::ThresholdCurves(Document &document, ExceedancePlot &plot, QObject *parent)
+ThresholdCurves::ThresholdCurves(Document &document, AnalysisController &controller, ExceedancePlot &plot,
+                                 QObject *parent)
     : QObject(parent), m_document(document), m_plot(plot)
 {
-    connect(&document, &Document::analysisChanged, this, &ThresholdCurves::showClosedForm);
-    connect(&document, &Document::analysisChanged, this, &ThresholdCurves::showSelection);
+    connect(&document, &Document::opened, this, [this] {
+        m_plot.setHistogram({});
+        m_plot.setCalibration({}, 0.0);
+    });
+    connect(&document, &Document::analysisChanged, this, [this] {
+        showPlan();
+        m_plot.setHistogram(m_document.analysis()->statisticCounts);
+        showClosedForm();
+        showSelection();
+    });
+    connect(&document, &Document::livePlanChanged, this, &ThresholdCurves::showPlan);
+    connect(&document, &Document::shownThresholdChanged, this,
+            [this] { m_plot.setThreshold(m_document.shownThreshold()); });
     connect(&document.viewport(), &Viewport::selectionChanged, this, &ThresholdCurves::showSelection);
+    connect(&plot, &ExceedancePlot::thresholdRequested, &controller, &AnalysisController::previewThreshold);
+    connect(&plot, &ExceedancePlot::thresholdCommitted, &controller, &AnalysisController::commitThreshold);
+    connect(&plot, &ExceedancePlot::unitChanged, &controller, [&controller](ExceedancePlot::Unit unit) {
+        controller.setThresholdUnit(
+            std::ranges::find(units, unit, [](const auto &both) { return both.first; })->second);
+    });
+}
+
+void ThresholdCurves::showPlan()
+{
+    const AnalysisPlan &plan = *m_document.plan();
+    m_plot.setStatisticUnit(statisticUnit(plan.settings));
+    m_plot.setCalibration(plan.calibration, plan.cellFramesPerHour);
+    m_plot.setUnit(
+        std::ranges::find(units, plan.settings.decide.by, [](const auto &both) { return both.second; })->first);
 }
 
 void ThresholdCurves::showClosedForm()

@@ -238,9 +238,9 @@ void LessonGuide::showExperiment()
         return;
     int &id = m_experiments[now().experiment];
     if (m_parts.experiments().entry(id))
-        emit m_parts.experimentList().showRequested(id);
+        m_parts.showExperiment(id);
     else
-        id = m_parts.experimentList().open(now().experiment);
+        id = m_parts.panel<ExperimentsPanel>().open(now().experiment);
 }
 
 bool LessonGuide::isBusy() const
@@ -343,7 +343,7 @@ QWidget *LessonGuide::widgetNamed(const QString &name)
     if (name.isEmpty())
         return nullptr;
     if (name.startsWith(QLatin1String("setting "))) {
-        SettingsForm *form = m_parts.pipeline().form();
+        SettingsForm *form = m_parts.panel<PipelinePanel>().form();
         const QString setting = name.mid(8);
         QWidget *editor = form->editor(setting);
         if (!editor)
@@ -358,9 +358,9 @@ QWidget *LessonGuide::widgetNamed(const QString &name)
     if (name == QLatin1String("profile"))
         return m_parts.workbench().statisticPlot();
     if (name == QLatin1String("roc"))
-        return &m_parts.evaluation().roc();
+        return &m_parts.panel<EvaluatePanel>().roc();
     if (name == QLatin1String("pipeline"))
-        return m_parts.pipeline().form();
+        return m_parts.panel<PipelinePanel>().form();
     if (name == QLatin1String("readout"))
         return &m_parts.readOut();
     return m_parts.views().named(name);
@@ -464,8 +464,8 @@ void LessonGuide::putAway(const QWidget *target)
 /// Of experiments, beside their charts.
 void LessonGuide::setFormsVisible(bool isVisible)
 {
-    m_parts.evaluation().column().setVisible(isVisible);
-    m_parts.sequential().controls().setVisible(isVisible);
+    m_parts.panel<EvaluatePanel>().column().setVisible(isVisible);
+    m_parts.panel<SequentialPanel>().controls().setVisible(isVisible);
 }
 
 /// On a small screen a presented lesson stands at the right, above the panels of the step, which leaves the pictures

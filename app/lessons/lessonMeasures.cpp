@@ -123,7 +123,7 @@ namespace {
     Value pdMeasure(WindowParts &window, const std::string &name)
     {
         std::smatch parts;
-        const Experiments::Entry *shown = window.experiments().entry(window.evaluation().shown());
+        const Experiments::Entry *shown = window.experiments().entry(window.panel<EvaluatePanel>().shown());
         if (!shown || !shown->campaign || shown->isOpen() || !std::regex_match(name, parts, pdPattern()))
             return {};
         const std::size_t snrs = snrsOf(shown->campaign->experiment).size();
@@ -160,7 +160,7 @@ namespace {
     /// Mean over the steps of the displayed path.
     Value lnTransitionOfPath(WindowParts &window)
     {
-        const auto &explanation = window.why().explanation();
+        const auto &explanation = window.panel<WhyPanel>().explanation();
         if (!explanation || explanation->steps.size() < 2)
             return {};
         double sum = 0.0;

@@ -64,7 +64,7 @@ namespace {
 } // namespace
 
 DopplerPanel::DopplerPanel(Document &document, const EventTable &events, Provenance &provenance, QWidget *parent)
-    : QWidget(parent), m_document(document), m_events(events), m_provenance(provenance), m_form(new QFormLayout),
+    : Panel(parent), m_document(document), m_events(events), m_provenance(provenance), m_form(new QFormLayout),
       m_medium(new QComboBox), m_propagation(new QDoubleSpinBox), m_centre(new QDoubleSpinBox),
       m_save(new QPushButton(tr("&Save fit…"))), m_sentence(panelSentence()), m_table(new QTableWidget),
       m_notes(plainLabel()), m_frequencies(new ChartPlot), m_residuals(new ChartPlot),

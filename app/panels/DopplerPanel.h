@@ -1,9 +1,8 @@
 #pragma once
 
 #include "app/base/Inquiry.h"
+#include "app/base/Panel.h"
 #include "exchange/writeDoppler.h"
-
-#include <QWidget>
 
 class QComboBox;
 class QDoubleSpinBox;
@@ -24,7 +23,7 @@ class Provenance;
 ///
 /// Several selected events are treated as pieces of one pass; without a selection the strongest event is fitted.
 /// Computed while visible; the newest selection wins.
-class DopplerPanel : public QWidget
+class DopplerPanel : public Panel
 {
     Q_OBJECT
 
@@ -42,10 +41,6 @@ public:
     void saveTo(const QString &path);
 
     QSize sizeHint() const override { return {720, 340}; }
-
-signals:
-    void written(const QString &path);
-    void failed(const faintline::Error &error);
 
 private:
     /// Events, centre frequency, speed of propagation.

@@ -40,7 +40,7 @@ namespace {
 } // namespace
 
 EvaluatePanel::EvaluatePanel(const Document &document, Experiments &experiments, QWidget *parent)
-    : QWidget(parent), m_document(document), m_experiments(experiments), m_form(new ExperimentForm),
+    : Panel(parent), m_document(document), m_experiments(experiments), m_form(new ExperimentForm),
       m_column(new StartColumn(m_form, tr("Progress of the experiment"), tr("Run this experiment in the background"))),
       m_tabs(new QTabWidget), m_pd(new ChartPlot), m_roc(new ChartPlot), m_snr(new QComboBox)
 {

@@ -1,10 +1,8 @@
 #pragma once
 
+#include "app/base/Panel.h"
 #include "app/control/Experiments.h"
-#include "base/Error.h"
 #include "evaluate/experiments/Chart.h"
-
-#include <QWidget>
 
 class QComboBox;
 class QTabWidget;
@@ -17,7 +15,7 @@ class ExperimentForm;
 class StartColumn;
 
 /// Pd and ROC: an experiment is set up on the left; its curves grow on the right while it runs.
-class EvaluatePanel : public QWidget
+class EvaluatePanel : public Panel
 {
     Q_OBJECT
 
@@ -41,7 +39,6 @@ public slots:
 
 signals:
     void trialRequested(int experiment, std::size_t detector, std::size_t snr);
-    void failed(const faintline::Error &error);
 
 private:
     void followDocument();

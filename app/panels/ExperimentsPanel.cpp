@@ -45,7 +45,7 @@ namespace {
 } // namespace
 
 ExperimentsPanel::ExperimentsPanel(Experiments &experiments, QWidget *parent)
-    : QWidget(parent), m_experiments(experiments), m_table(new QTableWidget(0, ExperimentColumns)),
+    : Panel(parent), m_experiments(experiments), m_table(new QTableWidget(0, ExperimentColumns)),
       m_show(new QPushButton(tr("Show"))), m_cancel(new QPushButton(tr("Cancel"))),
       m_remove(new QPushButton(tr("Remove"))), m_export(new QPushButton(tr("Export…")))
 {

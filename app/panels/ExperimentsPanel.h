@@ -1,10 +1,9 @@
 #pragma once
 
+#include "app/base/Panel.h"
 #include "app/control/Experiments.h"
-#include "base/Error.h"
 
 #include <QMap>
-#include <QWidget>
 
 class QPushButton;
 class QTableWidget;
@@ -12,7 +11,7 @@ class QTableWidget;
 namespace faintline {
 
 /// The list of running, waiting and completed experiments, with actions to show, stop, import and export them.
-class ExperimentsPanel : public QWidget
+class ExperimentsPanel : public Panel
 {
     Q_OBJECT
 
@@ -33,7 +32,6 @@ public:
 
 signals:
     void showRequested(int id);
-    void failed(const faintline::Error &error);
 
 private:
     int selected() const;

@@ -59,9 +59,8 @@ namespace {
 
 PipelinePanel::PipelinePanel(Document &document, AnalysisController &controller, OwnPresets &ownPresets,
                              QWidget *parent)
-    : QWidget(parent), m_document(document), m_controller(controller), m_ownPresets(ownPresets),
-      m_recording(new QLabel), m_preset(new QComboBox), m_window(new QComboBox), m_top(new QFormLayout),
-      m_form(new SettingsForm)
+    : Panel(parent), m_document(document), m_controller(controller), m_ownPresets(ownPresets), m_recording(new QLabel),
+      m_preset(new QComboBox), m_window(new QComboBox), m_top(new QFormLayout), m_form(new SettingsForm)
 {
     m_recording->setWordWrap(true);
     m_recording->setTextFormat(Qt::RichText);

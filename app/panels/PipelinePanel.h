@@ -1,8 +1,7 @@
 #pragma once
 
+#include "app/base/Panel.h"
 #include "plan/WindowChoice.h"
-
-#include <QWidget>
 
 #include <optional>
 
@@ -18,7 +17,7 @@ class OwnPresets;
 class SettingsForm;
 
 /// The chain from recording to tracks as one form: the open source, a preset, and all settings.
-class PipelinePanel : public QWidget
+class PipelinePanel : public Panel
 {
     Q_OBJECT
 
@@ -34,9 +33,6 @@ public:
     void removePreset();
 
     QSize sizeHint() const override { return {270, 600}; }
-
-signals:
-    void failed(const faintline::Error &error);
 
 private:
     void showRecording();

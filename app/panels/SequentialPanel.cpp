@@ -66,7 +66,7 @@ namespace {
 } // namespace
 
 SequentialPanel::SequentialPanel(Document &document, SequentialTests &tests, QWidget *parent)
-    : QWidget(parent), m_document(document), m_tests(tests), m_controls(new SequentialControls(tests)),
+    : Panel(parent), m_document(document), m_tests(tests), m_controls(new SequentialControls(tests)),
       m_tabs(new QTabWidget), m_walk(new WalkPlot), m_stopping(new BarPlot), m_trajectory(new TrajectoryPage(tests)),
       m_views(document, tests, *m_trajectory, this), m_asn(new ChartPlot), m_variation(new ChartPlot),
       m_curvesText(sentenceLabel()), m_prior(new ChartPlot), m_priorText(sentenceLabel()), m_sectors(new BarPlot),

@@ -1,11 +1,10 @@
 #pragma once
 
+#include "app/base/Panel.h"
 #include "app/control/SequentialTests.h"
 #include "app/panels/SequentialViews.h"
 #include "evaluate/sequential/ScanTest.h"
 #include "widgets/forms/FieldForm.h"
-
-#include <QWidget>
 
 class QLabel;
 class QSlider;
@@ -24,7 +23,7 @@ class WalkPlot;
 /// power, stages against SNR and prior with their bounds, and the savings in a survey of sectors.
 ///
 /// J and L, or the slider, step through the stages of the selected run; a click on a walk selects it in all views.
-class SequentialPanel : public QWidget
+class SequentialPanel : public Panel
 {
     Q_OBJECT
 
@@ -53,10 +52,6 @@ public:
     const SequentialViews &views() const { return m_views; } ///< and their export
 
     QSize sizeHint() const override { return {1000, 340}; }
-
-signals:
-    void failed(const faintline::Error &error);
-    void written(const QString &path);
 
 protected:
     bool event(QEvent *event) override;

@@ -1,5 +1,6 @@
 #include "app/panels/StateSlicePanel.h"
 
+#include "app/control/OutputLayers.h"
 #include "app/panels/LawPanel.h"
 #include "plan/chain.h"
 #include "widgets/base/labelText.h"
@@ -40,9 +41,9 @@ namespace {
 
 } // namespace
 
-StateSlicePanel::StateSlicePanel(Document &document, PingViewports &viewports, QWidget *parent)
-    : QWidget(parent), m_document(document), m_viewports(viewports), m_rows(new QComboBox), m_columns(new QComboBox),
-      m_others(new QComboBox), m_model(new QComboBox), m_sentence(panelSentence()),
+StateSlicePanel::StateSlicePanel(Document &document, OutputLayers &layers, PingViewports &viewports, QWidget *parent)
+    : Panel(parent), m_document(document), m_layers(layers), m_viewports(viewports), m_rows(new QComboBox),
+      m_columns(new QComboBox), m_others(new QComboBox), m_model(new QComboBox), m_sentence(panelSentence()),
       m_view(new WaterfallView(tr("States (nat)"))), m_tabs(new QTabBar), m_pane(new QWidget),
       m_law(new LawPanel(document)), m_marks(std::make_unique<SliceMarks>(*m_view)),
       m_cut(
@@ -79,6 +80,11 @@ StateSlicePanel::StateSlicePanel(Document &document, PingViewports &viewports, Q
 }
 
 StateSlicePanel::~StateSlicePanel() = default;
+
+void StateSlicePanel::setSeen(bool isSeen)
+{
+    m_layers.setWatching(isSeen);
+}
 
 /// What is chosen of the states.
 QLayout *StateSlicePanel::buildHead()

@@ -1,10 +1,9 @@
 #pragma once
 
 #include "app/base/Inquiry.h"
+#include "app/base/Panel.h"
 #include "app/document/Document.h"
 #include "app/panels/StateCut.h"
-
-#include <QWidget>
 
 class QBoxLayout;
 class QComboBox;
@@ -15,6 +14,7 @@ class QTabBar;
 namespace faintline {
 
 class LawPanel;
+class OutputLayers;
 class SliceMarks;
 class WaterfallView;
 
@@ -23,12 +23,12 @@ class WaterfallView;
 /// For lines: frequency × slope, with the frequencies visible in the waterfalls. For pings: any two of range, bearing
 /// and their rates; the others are at the cursor (with the best rates of its cell) or maximised. The best visible state
 /// and the states of the tracks' paths are marked. Computed while visible, by repeating the run.
-class StateSlicePanel : public QWidget
+class StateSlicePanel : public Panel
 {
     Q_OBJECT
 
 public:
-    StateSlicePanel(Document &document, PingViewports &viewports, QWidget *parent = nullptr);
+    StateSlicePanel(Document &document, OutputLayers &layers, PingViewports &viewports, QWidget *parent = nullptr);
     ~StateSlicePanel() override;
 
     WaterfallView *view() const { return m_view; }
@@ -39,6 +39,8 @@ public:
     void setAxes(int rows, int columns);
     void setMaximised(bool isMaximised); ///< over the other axes
     bool isMaximised() const;
+
+    void setSeen(bool isSeen) override;
 
     QSize sizeHint() const override { return {420, 420}; }
     /// Size of picture or law alone: the layout depends on the available room and must not constrain it.
@@ -76,6 +78,7 @@ private:
     void show();
 
     Document &m_document;
+    OutputLayers &m_layers; ///< which mark what is seen here
     PingViewports &m_viewports;
     QComboBox *m_rows;
     QComboBox *m_columns;

@@ -20,7 +20,7 @@
 namespace faintline {
 
 SurveyPanel::SurveyPanel(const Document &document, const AnalysisController &controller, QWidget *parent)
-    : QWidget(parent), m_document(document), m_model(new SurveyModel(this)), m_table(new QTableView),
+    : Panel(parent), m_document(document), m_model(new SurveyModel(this)), m_table(new QTableView),
       m_summary(plainLabel())
 {
     m_table->setModel(m_model);

@@ -1,11 +1,11 @@
 #pragma once
 
 #include "app/base/JobRunner.h"
+#include "app/base/Panel.h"
 #include "app/control/AnalysisController.h"
 #include "app/panels/SurveyModel.h"
 
 #include <QHash>
-#include <QWidget>
 
 class QBoxLayout;
 class QLabel;
@@ -16,7 +16,7 @@ namespace faintline {
 
 /// The events of a survey of many recordings (faintline-cli survey): one table for all of them; a double-click opens
 /// the recording at the event. Reviews are written to the survey's file immediately.
-class SurveyPanel : public QWidget
+class SurveyPanel : public Panel
 {
     Q_OBJECT
 
@@ -42,7 +42,6 @@ signals:
                        const faintline::AnalysisController::Adjust &adjust);
     /// The recording is open and analysed; `id` is the requested event.
     void eventReached(int id);
-    void failed(const faintline::Error &error);
 
 protected:
     bool eventFilter(QObject *watched, QEvent *event) override;

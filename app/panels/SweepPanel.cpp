@@ -23,7 +23,7 @@ namespace {
 } // namespace
 
 SweepPanel::SweepPanel(const Document &document, Experiments &experiments, QWidget *parent)
-    : QWidget(parent), m_document(document), m_experiments(experiments), m_form(new SweepForm),
+    : Panel(parent), m_document(document), m_experiments(experiments), m_form(new SweepForm),
       m_column(new StartColumn(m_form, tr("Progress of the sweep"), tr("Try all values in the background"))),
       m_tabs(new QTabWidget), m_tradeOff(new ChartPlot), m_pd(new ChartPlot), m_falseAlarms(new ChartPlot),
       m_latency(new ChartPlot), m_cost(new ChartPlot)

@@ -1,10 +1,9 @@
 #pragma once
 
+#include "app/base/Panel.h"
 #include "app/control/Experiments.h"
 #include "base/Error.h"
 #include "evaluate/experiments/campaignCharts.h"
-
-#include <QWidget>
 
 #include <vector>
 
@@ -19,7 +18,7 @@ class SweepForm;
 
 /// Effect of one setting's values: Pd, false alarms, latency and cost against the setting, and the trade-off of Pd
 /// against false alarms, growing while they are measured. A click on a value applies it.
-class SweepPanel : public QWidget
+class SweepPanel : public Panel
 {
     Q_OBJECT
 
@@ -47,7 +46,6 @@ public slots:
 
 signals:
     void valueChosen(const QString &parameter, double value);
-    void failed(const faintline::Error &error);
 
 private:
     void buildCharts();

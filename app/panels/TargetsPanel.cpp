@@ -27,7 +27,7 @@ namespace faintline {
 
 TargetsPanel::TargetsPanel(Document &document, const std::vector<PingMap *> &maps, const PingViewports &viewports,
                            QWidget *parent)
-    : QWidget(parent), m_document(document), m_editor(new SceneEditor(document, viewports, this)),
+    : Panel(parent), m_document(document), m_editor(new SceneEditor(document, viewports, this)),
       m_model(new TargetModel(*m_editor, this)), m_place(new QPushButton(tr("Place on the map"))),
       m_addTarget(new QPushButton(tr("Target at cursor"))), m_addLeg(new QPushButton(tr("Leg to cursor"))),
       m_remove(new QPushButton(tr("Remove target"))), m_clear(new QPushButton(tr("Remove all"))),
@@ -141,7 +141,7 @@ void TargetsPanel::connectInputs()
     connect(&m_document, &Document::analysisChanged, this, &TargetsPanel::updateLayers);
 }
 
-void TargetsPanel::setActive(bool isActive)
+void TargetsPanel::setSeen(bool isActive)
 {
     if (isActive == m_isActive)
         return;

@@ -1,8 +1,7 @@
 #pragma once
 
+#include "app/base/Panel.h"
 #include "app/control/SceneEditor.h"
-
-#include <QWidget>
 
 #include <vector>
 
@@ -21,7 +20,7 @@ class TargetModel;
 /// can be edited. The pings are simulated and analysed again after each change.
 ///
 /// Handles are drawn over the maps while the panel is active.
-class TargetsPanel : public QWidget
+class TargetsPanel : public Panel
 {
     Q_OBJECT
 
@@ -37,15 +36,11 @@ public:
 
     QSize sizeHint() const override { return {760, 220}; }
 
-public slots:
-    /// While the panel is visible.
-    void setActive(bool isActive);
+    void setSeen(bool isActive) override;
 
 signals:
     void activeChanged(bool isActive);
     void newSceneRequested();
-    void written(const QString &path);
-    void failed(const faintline::Error &error);
 
 protected:
     /// Escape ends placing before it stops the analysis.

@@ -77,7 +77,7 @@ AnalysisSettings openAndSettle(MainWindow &window, const RenderOptions &options)
 void compareWithA(MainWindow &window, const AnalysisSettings &settings)
 {
     window.comparer().setMeasuringCost(false);
-    window.comparePanel().keep();
+    window.panel<ComparePanel>().keep();
     runAndSettle(window.controller(), [&] { window.controller().setSettings(settings, QStringLiteral("B")); });
     window.showView(QStringLiteral("compare"));
     window.comparer().setActive(true);
@@ -128,7 +128,7 @@ void goThroughLesson(MainWindow &window, const RenderOptions &options)
 void openSurvey(MainWindow &window, const RenderOptions &options)
 {
     offerOnly({"window", "survey"}, "surveys", options.views);
-    runAndSettle(window.survey(), [&] { window.open(pathText(options.source)); });
+    runAndSettle(window.panel<SurveyPanel>(), [&] { window.open(pathText(options.source)); });
 }
 
 void openExperiment(MainWindow &window, const RenderOptions &options)
@@ -136,8 +136,8 @@ void openExperiment(MainWindow &window, const RenderOptions &options)
     offerOnly({"window", "pd", "sweep"}, "experiments", options.views);
     if (!options.settings.empty() || !options.preset.empty() || !options.part.assignments().empty())
         throw Error("--set", "cannot be combined with an experiment, which has its own settings");
-    window.sweep().setMeasuringCost(false);
-    runAndSettle(window.experimentList(), [&] { window.open(pathText(options.source)); });
+    window.panel<SweepPanel>().setMeasuringCost(false);
+    runAndSettle(window.panel<ExperimentsPanel>(), [&] { window.open(pathText(options.source)); });
     settleExperiments(window);
 }
 

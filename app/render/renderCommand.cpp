@@ -50,7 +50,7 @@ namespace {
             if (std::find(views.begin(), views.end(), view) != views.end())
                 throw Error(std::string("--view ") + view, "requires radar scans; the source must be a scenario of "
                                                            "kind \"scans\"");
-        testAndSettle(window, [&] { window.sequential().startOnSelection(); });
+        testAndSettle(window, [&] { window.panel<SequentialPanel>().startOnSelection(); });
     }
 
     void showLayer(MainWindow &window, const RenderOptions &options)

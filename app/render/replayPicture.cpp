@@ -66,8 +66,8 @@ namespace {
             testAndSettle(window, [&] {
                 window.sequentialTests().setStage(wholeNumber<Index>(provenance.at("stage"), "stage"));
             });
-            window.sequential().trajectory().showAxis(wholeNumber<int>(provenance.at("axis"), "axis"));
-            const auto &views = window.sequential().views().all();
+            window.panel<SequentialPanel>().trajectory().showAxis(wholeNumber<int>(provenance.at("axis"), "axis"));
+            const auto &views = window.panel<SequentialPanel>().views().all();
             const auto view = std::find_if(views.begin(), views.end(),
                                            [name = provenance.at("chart").get<std::string>()](const auto &one) {
                                                return one.title.toStdString() == name;

@@ -30,17 +30,17 @@ void settleExperiments(MainWindow &window)
 void measureCurves(MainWindow &window)
 {
     constexpr int runs = 2;
-    window.evaluation().form().setQuick(
+    window.panel<EvaluatePanel>().form().setQuick(
         runs, {QStringLiteral("SMD 5 slopes"), QStringLiteral("3 of 4"), QStringLiteral("integrator")},
         {-5, -3, -1, 1, 3});
-    window.evaluation().start();
+    window.panel<EvaluatePanel>().start();
     settleExperiments(window);
 }
 
 void sweepThreshold(MainWindow &window)
 {
     constexpr int trials = 24;
-    SweepPanel &panel = window.sweep();
+    SweepPanel &panel = window.panel<SweepPanel>();
     panel.setMeasuringCost(false);
     panel.form().setParameter(QStringLiteral("decide.thresholdNats"));
     panel.form().setRange(4.0, 16.0, 7, false);
@@ -57,9 +57,9 @@ void sweepThreshold(MainWindow &window)
 void measureLatency(MainWindow &window)
 {
     constexpr int runs = 4;
-    if (const QString why = window.latency().obstacle(); !why.isEmpty())
+    if (const QString why = window.panel<LatencyPanel>().obstacle(); !why.isEmpty())
         throw Error("--view latency", why.toStdString());
-    window.latency().start(runs);
+    window.panel<LatencyPanel>().start(runs);
     showAndSettle(window, QStringLiteral("latency"));
 }
 
@@ -67,7 +67,7 @@ void testAndSettle(MainWindow &window, const std::function<void()> &start)
 {
     std::optional<Error> failure;
     const QObject scope;
-    QObject::connect(&window.sequential(), &SequentialPanel::failed, &scope,
+    QObject::connect(&window.panel<SequentialPanel>(), &SequentialPanel::failed, &scope,
                      [&](const Error &error) { failure = error; });
     start();
     while (!failure && window.sequentialTests().isBusy())

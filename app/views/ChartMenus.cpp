@@ -67,12 +67,13 @@ QString ChartMenus::captionFor(const QWidget &chart) const
         const Experiments::Entry *entry = m_parts.experiments().entry(experiment);
         return entry ? captionOf(*entry) : captionOf(m_parts.document(), CaptionOf::Statistic);
     };
-    if (m_parts.evaluation().isAncestorOf(&chart))
-        return of(m_parts.evaluation().shown());
-    if (m_parts.sweep().isAncestorOf(&chart))
-        return of(m_parts.sweep().shown());
-    const bool isOfInput = m_parts.spectrum().isAncestorOf(&chart) || m_parts.channels().isAncestorOf(&chart)
-                           || m_parts.noiseFit().isAncestorOf(&chart);
+    if (m_parts.panel<EvaluatePanel>().isAncestorOf(&chart))
+        return of(m_parts.panel<EvaluatePanel>().shown());
+    if (m_parts.panel<SweepPanel>().isAncestorOf(&chart))
+        return of(m_parts.panel<SweepPanel>().shown());
+    const bool isOfInput = m_parts.panel<SpectrumPanel>().isAncestorOf(&chart)
+                           || m_parts.panel<ChannelsPanel>().isAncestorOf(&chart)
+                           || m_parts.panel<NoiseFitPanel>().isAncestorOf(&chart);
     return captionOf(m_parts.document(), isOfInput ? CaptionOf::Input : CaptionOf::Statistic);
 }
 

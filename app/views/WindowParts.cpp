@@ -18,17 +18,22 @@ void WindowParts::openScansOf(const QString &path)
         openScans(test);
 }
 
+QWidget *WindowParts::docked(const QString &dock) const
+{
+    return std::ranges::find(m_docked, dock, &std::pair<QString, QWidget *>::first)->second;
+}
+
 ViewState WindowParts::viewState() const
 {
     ViewState view = bench().viewState();
-    view.firstChannel = m_channels->firstChannel();
+    view.firstChannel = panel<ChannelsPanel>().firstChannel();
     return view;
 }
 
 void WindowParts::restore(const ViewState &view)
 {
     bench().restore(view);
-    m_channels->setFirstChannel(view.firstChannel);
+    panel<ChannelsPanel>().setFirstChannel(view.firstChannel);
 }
 
 Bench &WindowParts::bench() const

@@ -7,35 +7,22 @@
 #include "app/control/SequentialTests.h"
 #include "app/document/Document.h"
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 namespace faintline {
 
 class Bench;
-class ChannelsPanel;
-class ComparePanel;
-class DopplerPanel;
-class EvaluatePanel;
 class EventReviews;
 class EventTable;
 class ExceedancePlot;
-class ExperimentsPanel;
-class HandLinePanel;
-class InfoPanel;
-class LatencyPanel;
 class MessageBar;
-class NoiseFitPanel;
+class OwnPresets;
 class PingBench;
-class PipelinePanel;
 class ReadOut;
 class Recovery;
-class ReproductionPanel;
-class SequentialPanel;
-class StateSlicePanel;
-class SpectrumPanel;
-class SurveyPanel;
-class SweepPanel;
-class TargetsPanel;
 class WelcomePage;
-class WhyPanel;
 class WindowViews;
 class Workbench;
 
@@ -58,35 +45,45 @@ public:
     Bench &bench() const; ///< the bench in use for the open document
     WelcomePage &welcome() const { return *m_welcome; }
     MessageBar &messages() const { return *m_messages; }
-    PipelinePanel &pipeline() const { return *m_pipeline; }
     ReadOut &readOut() const { return *m_readOut; }
     ExceedancePlot &thresholdPlot() const { return *m_threshold; }
     EventTable &eventTable() const { return *m_events; }
     EventReviews &reviews() const { return *m_reviews; }
-    WhyPanel &why() const { return *m_why; }
-    InfoPanel &info() const { return *m_info; }
-    NoiseFitPanel &noiseFit() const { return *m_noiseFit; }
-    StateSlicePanel &states() const { return *m_states; }
-    LatencyPanel &latency() const { return *m_latency; }
-    HandLinePanel &handLine() const { return *m_handLine; }
-    TargetsPanel &targets() const { return *m_targets; }
-    ComparePanel &comparePanel() const { return *m_compare; }
-    EvaluatePanel &evaluation() const { return *m_evaluate; }
-    SpectrumPanel &spectrum() const { return *m_spectrum; }
-    ChannelsPanel &channels() const { return *m_channels; }
-    DopplerPanel &doppler() const { return *m_doppler; }
-    SurveyPanel &survey() const { return *m_survey; }
-    SweepPanel &sweep() const { return *m_sweep; }
-    ExperimentsPanel &experimentList() const { return *m_experimentList; }
-    ReproductionPanel &reproduction() const { return *m_reproduction; }
-    SequentialPanel &sequential() const { return *m_sequential; }
     WindowViews &views() const { return *m_views; }
+    OwnPresets &ownPresets() const { return *m_ownPresets; }
+
+    /// The panel of that class, which is one of panelList().
+    template <class P>
+    P &panel() const
+    {
+        const auto is = [](const auto &docked) { return qobject_cast<P *>(docked.second) != nullptr; };
+        return *qobject_cast<P *>(std::ranges::find_if(m_docked, is)->second);
+    }
+    /// What the dock of that name holds.
+    QWidget *docked(const QString &dock) const;
 
     /// What a session keeps of the window: the view of the bench and of the panels.
     ViewState viewState() const;
     void restore(const ViewState &view);
 
-    /// Opens a recording, a scenario or a session without asking about unsaved changes.
+    /// Brings a panel to the front.
+    virtual void show(QWidget &panel) = 0;
+    /// Gives the whole window to a panel that needs no recording, until one is opened.
+    virtual void showAlone(QWidget &panel, const QString &title, const QString &hint) = 0;
+    virtual void showExperiment(int id) = 0;
+    virtual void showWelcome() = 0;
+    virtual void showWorkbench() = 0;
+    virtual void showError(const Error &error) = 0;
+    virtual void showWritten(const QString &path) = 0;
+    virtual void goTo(int event) = 0; ///< selects it everywhere
+    virtual void newScene() = 0;      ///< of sonar pings, without targets
+    /// Whether the document may be closed: no live run, and unsaved work may be lost; otherwise `next` may follow later.
+    virtual bool mayLeave(const QString &what, const std::function<void()> &next) = 0;
+
+    /// Opens a recording, a scenario or a session. Asks only for what the file does not contain.
+    virtual void open(const QString &path, const OpenOptions &options = {},
+                      const AnalysisController::Adjust &adjust = {}) = 0;
+    /// The same without asking about unsaved changes.
     virtual void openNow(const QString &path, const OpenOptions &options = {},
                          const AnalysisController::Adjust &adjust = {}) = 0;
     /// Opens a radar's sequential test on simulated scans. If no recording is open, only the test is shown.
@@ -112,29 +109,13 @@ protected:
     PingBench *m_pings = nullptr;
     WelcomePage *m_welcome = nullptr;
     MessageBar *m_messages = nullptr;
-    PipelinePanel *m_pipeline = nullptr;
     ReadOut *m_readOut = nullptr;
     ExceedancePlot *m_threshold = nullptr;
     EventTable *m_events = nullptr;
     EventReviews *m_reviews = nullptr;
-    WhyPanel *m_why = nullptr;
-    InfoPanel *m_info = nullptr;
-    NoiseFitPanel *m_noiseFit = nullptr;
-    StateSlicePanel *m_states = nullptr;
-    LatencyPanel *m_latency = nullptr;
-    HandLinePanel *m_handLine = nullptr;
-    TargetsPanel *m_targets = nullptr;
-    ComparePanel *m_compare = nullptr;
-    EvaluatePanel *m_evaluate = nullptr;
-    SpectrumPanel *m_spectrum = nullptr;
-    ChannelsPanel *m_channels = nullptr;
-    DopplerPanel *m_doppler = nullptr;
-    SurveyPanel *m_survey = nullptr;
-    SweepPanel *m_sweep = nullptr;
-    ExperimentsPanel *m_experimentList = nullptr;
-    ReproductionPanel *m_reproduction = nullptr;
-    SequentialPanel *m_sequential = nullptr;
     WindowViews *m_views = nullptr;
+    OwnPresets *m_ownPresets = nullptr;
+    std::vector<std::pair<QString, QWidget *>> m_docked; ///< by the names of their docks
 };
 
 } // namespace faintline

@@ -6,28 +6,13 @@
 #include "app/control/EventReviews.h"
 #include "app/control/OutputLayers.h"
 #include "app/document/saveView.h"
-#include "app/panels/ChannelsPanel.h"
-#include "app/panels/ComparePanel.h"
-#include "app/panels/DopplerPanel.h"
-#include "app/panels/EvaluatePanel.h"
-#include "app/panels/HandLinePanel.h"
-#include "app/panels/InfoPanel.h"
-#include "app/panels/LatencyPanel.h"
-#include "app/panels/NoiseFitPanel.h"
 #include "app/panels/SequentialPanel.h"
-#include "app/panels/SpectrumPanel.h"
-#include "app/panels/StateSlicePanel.h"
-#include "app/panels/SurveyPanel.h"
-#include "app/panels/SweepPanel.h"
-#include "app/panels/TargetsPanel.h"
 #include "app/panels/TrajectoryPage.h"
-#include "app/panels/WhyPanel.h"
 #include "app/views/WindowParts.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/TimeStack.h"
-#include "widgets/events/EventTable.h"
 #include "widgets/pings/PingMap.h"
 #include "widgets/plot/BarPlot.h"
 #include "widgets/plot/CellPicture.h"
@@ -50,41 +35,32 @@ namespace {
 
 const std::vector<WindowView> &windowViews()
 {
-    static const std::vector<WindowView> table{
-        {"window", tr("Window"), Of::Recording, nullptr},
-        {"input", tr("Input"), Of::Recording, [](Parts parts) { return parts.bench().inputView(); }},
-        {"output", tr("Statistic"), Of::Recording, [](Parts parts) { return parts.bench().outputView(); }},
-        {"threshold", tr("Threshold"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.thresholdPlot(); }},
-        {"events", tr("Events"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.eventTable(); }},
-        {"noise", tr("Noise and calibration"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.info(); }},
-        {"noisefit", tr("Noise fit"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.noiseFit(); }},
-        {"spectrum", tr("Spectrum"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.spectrum(); }},
-        {"channels", tr("Channels"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.channels(); }},
-        {"doppler", tr("Doppler fit"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.doppler(); }},
-        {"pd", tr("Pd and ROC"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.evaluation(); }},
-        {"why", tr("Why"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.why(); }},
-        {"compare", tr("Compare"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.comparePanel(); }},
-        {"sweep", tr("Sweep"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.sweep(); }},
-        {"hand", tr("By hand"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.handLine(); }},
-        {"slice", tr("States"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.states(); }},
-        {"map", tr("Maps"), Of::Pings, [](Parts parts) { return parts.pingBench().maps(); }},
-        {"polar", tr("Maps from above"), Of::Pings, [](Parts parts) { return parts.pingBench().maps(); }},
-        {"histories", tr("Histories"), Of::Pings, [](Parts parts) { return parts.pingBench().histories(); }},
-        {"latency", tr("Latency"), Of::Pings, [](Parts parts) -> QWidget * { return &parts.latency(); }},
-        {"targets", tr("Targets"), Of::Pings, [](Parts parts) -> QWidget * { return &parts.targets(); }},
-        {"sequential", tr("Sequential test"), Of::Scans, [](Parts parts) -> QWidget * { return &parts.sequential(); }},
-        {"walk", tr("Walks"), Of::Scans, [](Parts parts) -> QWidget * { return &parts.sequential().walk(); }},
-        {"stopping", tr("Stopping stages"), Of::Scans,
-         [](Parts parts) -> QWidget * { return &parts.sequential().stopping(); }},
-        {"posterior", tr("Posterior"), Of::Scans,
-         [](Parts parts) -> QWidget * { return &parts.sequential().trajectory().posterior(); }},
-        {"scan", tr("Scan"), Of::Scans,
-         [](Parts parts) -> QWidget * { return &parts.sequential().trajectory().scan(); }},
-        {"asn", tr("Average sample number"), Of::Scans, [](Parts parts) { return parts.sequential().curvesPage(); }},
-        {"prior", tr("Prior"), Of::Scans, [](Parts parts) { return parts.sequential().priorPage(); }},
-        {"sectors", tr("Sectors"), Of::Scans, [](Parts parts) { return parts.sequential().sectorsPage(); }},
-        {"survey", tr("Survey"), Of::Survey, [](Parts parts) -> QWidget * { return &parts.survey(); }},
-    };
+    static const std::vector<WindowView> table = [] {
+        using Test = SequentialPanel;
+        std::vector<WindowView> views{
+            {"window", tr("Window"), Of::Recording, nullptr},
+            {"input", tr("Input"), Of::Recording, [](Parts parts) { return parts.bench().inputView(); }},
+            {"output", tr("Statistic"), Of::Recording, [](Parts parts) { return parts.bench().outputView(); }},
+            {"threshold", tr("Threshold"), Of::Recording, [](Parts parts) { return &parts.thresholdPlot(); }},
+            {"map", tr("Maps"), Of::Pings, [](Parts parts) { return parts.pingBench().maps(); }},
+            {"polar", tr("Maps from above"), Of::Pings, [](Parts parts) { return parts.pingBench().maps(); }},
+            {"histories", tr("Histories"), Of::Pings, [](Parts parts) { return parts.pingBench().histories(); }},
+            {"walk", tr("Walks"), Of::Scans, [](Parts parts) { return &parts.panel<Test>().walk(); }},
+            {"stopping", tr("Stopping stages"), Of::Scans, [](Parts parts) { return &parts.panel<Test>().stopping(); }},
+            {"posterior", tr("Posterior"), Of::Scans,
+             [](Parts parts) { return &parts.panel<Test>().trajectory().posterior(); }},
+            {"scan", tr("Scan"), Of::Scans, [](Parts parts) { return &parts.panel<Test>().trajectory().scan(); }},
+            {"asn", tr("Average sample number"), Of::Scans,
+             [](Parts parts) { return parts.panel<Test>().curvesPage(); }},
+            {"prior", tr("Prior"), Of::Scans, [](Parts parts) { return parts.panel<Test>().priorPage(); }},
+            {"sectors", tr("Sectors"), Of::Scans, [](Parts parts) { return parts.panel<Test>().sectorsPage(); }},
+        };
+        for (const PanelRow &row : panelList())
+            if (!row.view.isEmpty())
+                views.push_back(
+                    {row.view, row.title, row.of, [dock = row.dock](Parts parts) { return parts.docked(dock); }});
+        return views;
+    }();
     return table;
 }
 

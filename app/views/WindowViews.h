@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/views/panelList.h"
 #include "base/Error.h"
 
 #include <QObject>
@@ -17,16 +18,15 @@ class WindowParts;
 
 /// Part of the window that can be shown on its own: in a picture, in a lesson, on the sheets of keys and equations.
 struct WindowView {
-    /// Kind of source it shows; with any other kind open it is empty.
-    enum class Of { Recording, Pings, Scans, Survey };
+    using Of = PanelRow::Of;
 
     QString name;  ///< in `render`, lessons and sessions
     QString title; ///< in menus
     Of of;
-    QWidget *(*widget)(const WindowParts &parts); ///< null: the whole window
+    std::function<QWidget *(const WindowParts &parts)> widget; ///< null: the whole window
 };
 
-/// The single table of views, used by menus, `render`, lessons and reports. To add a view, add a line.
+/// The views that are no panels, and those of the list of panels; used by menus, `render`, lessons and reports.
 const std::vector<WindowView> &windowViews();
 
 /// Views of a window by name, and their pictures as files that contain a description of their source.

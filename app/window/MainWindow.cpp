@@ -1,40 +1,34 @@
 #include "app/window/MainWindow.h"
 
-#include "analyse/snrInBandwidth.h"
 #include "app/base/MessageBar.h"
 #include "app/base/distinctLabels.h"
 #include "app/base/filePath.h"
 #include "app/base/screenSizes.h"
 #include "app/control/OutputLayers.h"
 #include "app/control/Playback.h"
+#include "app/control/ShownEvents.h"
 #include "app/control/hint.h"
+#include "app/document/Recovery.h"
 #include "app/document/SessionSaver.h"
-#include "app/document/statisticUnit.h"
 #include "app/help/EquationSheet.h"
 #include "app/help/KeysOverlay.h"
 #include "app/lessons/Lesson.h"
 #include "app/lessons/LessonGuide.h"
 #include "app/lessons/LessonList.h"
-#include "app/panels/ChannelsPanel.h"
-#include "app/panels/ComparePanel.h"
-#include "app/panels/DopplerPanel.h"
 #include "app/panels/EvaluatePanel.h"
 #include "app/panels/ExperimentsPanel.h"
-#include "app/panels/HandLinePanel.h"
-#include "app/panels/LatencyPanel.h"
-#include "app/panels/NoiseFitPanel.h"
 #include "app/panels/PipelinePanel.h"
 #include "app/panels/ReproductionPanel.h"
-#include "app/panels/SpectrumPanel.h"
-#include "app/panels/StateSlicePanel.h"
+#include "app/panels/SequentialPanel.h"
 #include "app/panels/SweepPanel.h"
-#include "app/panels/TargetsPanel.h"
-#include "app/panels/WhyPanel.h"
+#include "app/views/ChartMenus.h"
 #include "app/views/ReportWriter.h"
 #include "app/views/WindowViews.h"
 #include "app/welcome/WelcomePage.h"
 #include "app/window/CommandPalette.h"
 #include "app/window/Commands.h"
+#include "app/window/Listening.h"
+#include "app/window/Opener.h"
 #include "app/window/Panels.h"
 #include "app/window/ToolBar.h"
 #include "app/window/TrialViewer.h"
@@ -42,14 +36,12 @@
 #include "app/window/settingCommands.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
-#include "noise/NoiseNormaliser.h"
-#include "widgets/base/ReadOut.h"
-#include "widgets/base/familyWords.h"
 #include "widgets/base/icon.h"
+#include "widgets/base/labelText.h"
 #include "widgets/events/EventCard.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"
-#include "widgets/waterfall/OverviewStrip.h"
+#include "widgets/plot/WalkPlot.h"
 
 #include <QCloseEvent>
 #include <QDockWidget>
@@ -64,19 +56,6 @@
 namespace faintline {
 
 namespace {
-
-    ExceedancePlot::Unit unitOf(DecideSettings::By by)
-    {
-        switch (by) {
-        case DecideSettings::By::Nats:
-            return ExceedancePlot::Unit::Nats;
-        case DecideSettings::By::PfaPerCell:
-            return ExceedancePlot::Unit::PfaPerCell;
-        case DecideSettings::By::FalseAlarmsPerHour:
-            break;
-        }
-        return ExceedancePlot::Unit::FalseAlarmsPerHour;
-    }
 
     /// Qt moves the panels behind a tab off the window and leaves them visible.
     bool isBehindTab(const QWidget *widget)
@@ -94,29 +73,29 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recover
 {
     setObjectName(QStringLiteral("MainWindow"));
     setAnimated(false);
-    m_live = new LiveRun(this);
     m_panels = new Panels(*this);
     m_views = new WindowViews(*this, this);
     buildCentre();
     buildPanels();
-    buildDocks();
     buildBottom();
     buildStatusBar();
     m_lessons = new LessonGuide(*this, *this);
-    m_snrBandwidthHz = m_memory.snrBandwidthHz();
+    m_opener = new Opener(*this, *m_lessons, m_memory, *this);
+    m_saver = new SessionSaver(
+        m_document, [this] { return viewState(); }, this);
+    m_recovery = new Recovery(
+        m_document, [this] { return viewState(); }, m_recoveryFolder, this);
+    m_report = new ReportWriter(m_document, *m_views, this);
+    m_trials = std::make_unique<TrialViewer>(m_experiments, this);
+    m_chartMenus = new ChartMenus(*this, this);
     m_commands = makeCommands(*this);
     nameWhatHolds();
     buildToolBar();
     connectCommands();
     connectDocument();
     connectController();
-    connectWelcome();
-    connectEvents();
-    connectViews();
-    connectSurvey();
-    connectTargets();
-    connectEvaluation();
-    connectLive();
+    connectLessons();
+    connectParts();
     m_keys = new KeysOverlay(this);
     m_equation = new EquationSheet(this);
     m_palette = new CommandPalette(this);
@@ -132,7 +111,8 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recover
 MainWindow::~MainWindow()
 {
     hide(); // panels hide while what they show still exists
-    m_live->disconnect(this);
+    m_listening->disconnect();
+    m_listening->run().disconnect(m_listening);
     m_controller.disconnect(this); // running jobs end after the widgets are destroyed
     m_document.disconnect(this);
     m_comparer.disconnect();
@@ -199,7 +179,6 @@ void MainWindow::connectCommands()
     connect(output, &WaterfallView::sidebandsChanged, sidebands,
             [sidebands](double hz) { sidebands->setChecked(hz > 0.0); });
     toggle("regulation", [this](bool isOn) { m_workbench->setRegulationWanted(isOn); })->setChecked(true);
-    m_commands->action("iq")->setCheckable(true);
     QAction *stop = m_commands->action("stop");
     stop->setEnabled(false);
     m_events->card().setActions({m_commands->action("why"), m_commands->action("hear"), harmonics,
@@ -248,8 +227,8 @@ void MainWindow::putBenchAside()
 
 void MainWindow::showWelcome()
 {
-    if (m_live->isRunning())
-        return void(mayLeave(tr("going to the welcome page"), [] {}));
+    if (!m_listening->mayLeave(tr("going to the welcome page")))
+        return;
     m_lessons->leave();
     m_commands->action("present")->setChecked(false);
     putBenchAside();
@@ -269,53 +248,6 @@ void MainWindow::showWorkbench()
     m_legend->show();
     m_commands->setShown(true);
     bench().firstView()->setFocus();
-}
-
-void MainWindow::showAnalysis()
-{
-    const Analysis &analysis = *m_document.analysis();
-    showPlan(analysis);
-    m_threshold->setHistogram(analysis.statisticCounts);
-    m_overview->setPicture(analysis.inputAlong.front(), analysis.grid().axes.front());
-    showWorkbench();
-}
-
-void MainWindow::showPlan(const AnalysisPlan &analysis)
-{
-    const Axis &frequency = analysis.grid().axes.front(); // for pings: the range
-    m_readOut->setResolution(analysis.time().step, frequency.step, analysis.time().last());
-    m_readOut->setFrequencyName(frequencyName(analysis.settings.family));
-    const QString unit = statisticUnit(analysis.settings);
-    m_threshold->setStatisticUnit(unit);
-    m_readOut->setStatisticUnit(unit);
-    m_events->setStatisticUnit(unit);
-    m_threshold->setCalibration(analysis.calibration, analysis.cellFramesPerHour);
-    m_threshold->setUnit(unitOf(analysis.settings.decide.by));
-    m_events->setAxes(analysis.grid().axes);
-    const RecordingInfo info = m_document.recording() ? m_document.recording()->info() : RecordingInfo();
-    m_events->setOrigin(info.startUnixSeconds, info.centreHz);
-}
-
-void MainWindow::showEvents()
-{
-    std::vector<Event> events = m_document.shownEvents();
-    m_overview->setEvents(eventsAlong(events, 0));
-    const auto plan = m_document.plan();
-    const bool isConverted = m_snrBandwidthHz > 0.0 && m_document.recording() && plan && plan->frames;
-    m_events->setSnrUnit(isConverted ? tr("dB in %1 Hz").arg(m_snrBandwidthHz) : tr("dB"));
-    if (isConverted)
-        for (Event &event : events)
-            event.snrDb += snrChangeDb(m_snrBandwidthHz, plan->frames->geometry());
-    m_events->setEvents(events);
-    showHint();
-}
-
-void MainWindow::setSnrBandwidth(double hz)
-{
-    m_snrBandwidthHz = hz;
-    m_memory.setSnrBandwidthHz(hz);
-    if (!m_document.isEmpty())
-        showEvents();
 }
 
 void MainWindow::showHint()
@@ -371,15 +303,12 @@ void MainWindow::resizeEvent(QResizeEvent *event)
 
 void MainWindow::closeEvent(QCloseEvent *event)
 {
-    if (m_live->isRunning()) { // received samples are written and analysed first
+    if (m_listening->isRunning()) { // received samples are written and analysed first
         event->ignore();
-        const bool isSure = m_isLeaving || !m_isAsking
-                            || QMessageBox::question(this, tr("Listening"), tr("Stop listening and close the window?"))
-                                   == QMessageBox::Yes;
-        if (isSure && m_live->isRunning()) {
-            m_isLeaving = true;
-            m_live->stop();
-        }
+        if (m_listening->isLeaving() || !m_opener->isAsking()
+            || QMessageBox::question(this, tr("Listening"), tr("Stop listening and close the window?"))
+                   == QMessageBox::Yes)
+            m_listening->leave();
         return;
     }
     if (!m_saver->mayLose(tr("closing"), [this] { close(); }))
@@ -442,13 +371,11 @@ void MainWindow::restoreLayout()
         m_workbench->layers().setLayer(OutputLayer(layer - outputLayerNames.begin()));
 }
 
-void MainWindow::setAsking(bool isAsking)
+void MainWindow::setSnrBandwidth(double hz)
 {
-    m_isAsking = isAsking;
-    m_saver->setAsking(isAsking);
+    m_memory.setSnrBandwidthHz(hz);
+    m_shownEvents->setSnrBandwidth(hz);
 }
-
-// ---- the rest -------------------------------------------------------------------------------------------------------
 
 void MainWindow::exportReport()
 {
@@ -463,7 +390,7 @@ void MainWindow::reproduce(const Reproducible &reproducible, bool quick)
     ReproduceOptions options;
     options.quick = quick;
     showWorkbench();
-    m_panels->show(m_experimentList);
+    show(panel<ExperimentsPanel>());
     m_experiments.start(reproducible, options);
 }
 
@@ -473,32 +400,120 @@ void MainWindow::showExperiment(int id)
     if (!entry)
         return;
     if (entry->reproduction) {
-        m_reproduction->show(entry->reproduction);
-        return m_panels->show(m_reproduction);
+        panel<ReproductionPanel>().show(entry->reproduction);
+        return show(panel<ReproductionPanel>());
     }
     if (entry->reproducible)
         return;
     const bool isSweep = entry->campaign && std::holds_alternative<SweepExperiment>(entry->campaign->experiment);
-    isSweep ? m_sweep->show(id) : m_evaluate->show(id);
-    QWidget *panel = isSweep ? static_cast<QWidget *>(m_sweep) : m_evaluate;
+    isSweep ? panel<SweepPanel>().show(id) : panel<EvaluatePanel>().show(id);
+    QWidget &shown = isSweep ? static_cast<QWidget &>(panel<SweepPanel>()) : panel<EvaluatePanel>();
     if (!m_document.isEmpty())
-        return m_panels->show(panel);
-    showAlone(panel, tr("%1 — Faintline").arg(entry->name), tr("The curves grow while the experiment runs."));
+        return show(shown);
+    showAlone(shown, tr("%1 — Faintline").arg(entry->name), tr("The curves grow while the experiment runs."));
+}
+
+void MainWindow::show(QWidget &panel)
+{
+    m_panels->show(panel);
 }
 
 void MainWindow::showView(const QString &name)
 {
-    m_panels->show(m_views->named(name));
+    show(*m_views->named(name));
+}
+
+void MainWindow::showAlone(QWidget &panel, const QString &title, const QString &hint)
+{
+    m_messages->dismiss();
+    if (m_document.isEmpty() || m_pages->currentWidget() == m_welcome) {
+        m_pages->hide(); // makes room for the panel
+        setWindowTitle(title);
+        m_hint->setText(hint);
+    }
+    show(panel);
+}
+
+void MainWindow::openScans(const ScanTest &test)
+{
+    m_commands->action("present")->setEnabled(true);
+    if (m_lessons->isRunning())
+        putBenchAside(); // an open recording has nothing to do with the lesson
+    auto &sequential = panel<SequentialPanel>();
+    showAlone(sequential, tr("Radar scans — Faintline"),
+              tr("Click a walk to follow that test. J and L step through its stages."));
+    sequential.start(test);
+    sequential.walk().setFocus(); // for J and L
+}
+
+void MainWindow::goTo(int event)
+{
+    bench().selectEvent(event);
+    m_events->setSelectedEvent(event);
+}
+
+void MainWindow::open(const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust)
+{
+    m_opener->open(path, options, adjust);
+}
+
+void MainWindow::openNow(const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust)
+{
+    m_opener->openNow(path, options, adjust);
+}
+
+void MainWindow::newScene()
+{
+    m_opener->newScene();
+}
+
+void MainWindow::offerRecovery()
+{
+    m_opener->offerRecovery(m_recoveryFolder);
+}
+
+void MainWindow::listenTo(LiveRun::OpenSource source, const QString &folder,
+                          const std::optional<AnalysisSettings> &settings, const RotationSettings &rotation)
+{
+    m_listening->start(std::move(source), folder, settings, rotation);
+}
+
+LiveRun &MainWindow::live()
+{
+    return m_listening->run();
+}
+
+LiveBar &MainWindow::liveBar()
+{
+    return m_listening->bar();
+}
+
+bool MainWindow::mayLeave(const QString &what, const std::function<void()> &next)
+{
+    return m_listening->mayLeave(what) && m_saver->mayLose(what, next);
+}
+
+void MainWindow::setAsking(bool isAsking)
+{
+    m_opener->setAsking(isAsking);
+    m_saver->setAsking(isAsking);
+}
+
+void MainWindow::showWritten(const QString &path)
+{
+    m_messages->showMessage(MessageBar::Kind::Notice, tr("Written"),
+                            labelText(pathBytes(absolutePath(path)), longestPath));
 }
 
 /// Plays sound; without sound only the cursor moves. In a live run the picture continues.
 void MainWindow::setPlaying(bool isPlaying)
 {
-    const bool isLive = m_document.isLive();
-    if (!isPlaying && !isLive)
-        m_playback->stop();
-    else if (isPlaying && &bench() == m_workbench && !isLive && (m_playback->isPlaying() || m_playback->start()))
-        return;
+    if (m_document.takesAnalyses()) {
+        if (!isPlaying)
+            m_playback->stop();
+        else if (&bench() == m_workbench && (m_playback->isPlaying() || m_playback->start()))
+            return;
+    }
     bench().setPlaying(isPlaying);
 }
 
@@ -528,7 +543,7 @@ void MainWindow::showPalette()
     m_settingsMenu->clear();
     QList<QAction *> commands = menuBar()->actions();
     if (m_pages->currentWidget() != m_welcome) {
-        listSettings(*m_settingsMenu, *m_pipeline->form(), [this] { m_panels->show(m_pipeline); });
+        listSettings(*m_settingsMenu, *panel<PipelinePanel>().form(), [this] { show(panel<PipelinePanel>()); });
         commands << m_settingsMenu->menuAction();
     }
     m_palette->open(commands);

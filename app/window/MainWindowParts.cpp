@@ -4,58 +4,34 @@
 
 #include "app/base/MessageBar.h"
 #include "app/control/BoxAnalysis.h"
-#include "app/control/EventFiles.h"
 #include "app/control/EventReviews.h"
 #include "app/control/Playback.h"
+#include "app/control/ShownEvents.h"
 #include "app/control/ThresholdCurves.h"
 #include "app/document/OwnPresets.h"
 #include "app/lessons/LessonList.h"
-#include "app/panels/ChannelsPanel.h"
-#include "app/panels/ComparePanel.h"
-#include "app/panels/DopplerPanel.h"
-#include "app/panels/EvaluatePanel.h"
-#include "app/panels/ExperimentsPanel.h"
-#include "app/panels/HandLinePanel.h"
-#include "app/panels/InfoPanel.h"
-#include "app/panels/LatencyPanel.h"
-#include "app/panels/MainSettings.h"
-#include "app/panels/NoiseFitPanel.h"
-#include "app/panels/PipelinePanel.h"
-#include "app/panels/ReproductionPanel.h"
-#include "app/panels/SequentialPanel.h"
-#include "app/panels/SpectrumPanel.h"
-#include "app/panels/StateSlicePanel.h"
-#include "app/panels/SurveyPanel.h"
-#include "app/panels/SweepPanel.h"
-#include "app/panels/TargetsPanel.h"
-#include "app/panels/ThresholdPanel.h"
-#include "app/panels/WhyPanel.h"
 #include "app/panels/chosenEvents.h"
+#include "app/views/panelList.h"
 #include "app/welcome/WelcomePage.h"
 #include "app/window/ActivityBar.h"
+#include "app/window/Listening.h"
 #include "app/window/Panels.h"
 #include "app/workspace/LiveBar.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
+#include "app/workspace/bottomBars.h"
 #include "widgets/base/ReadOut.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"
-#include "widgets/plot/StripPlot.h"
 #include "widgets/waterfall/MarkLegend.h"
 #include "widgets/waterfall/OverviewStrip.h"
 
-#include <QDockWidget>
 #include <QGridLayout>
 #include <QLabel>
-#include <QPushButton>
-#include <QScrollArea>
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QToolBar>
 #include <QVBoxLayout>
-
-#include <array>
-#include <memory>
 
 namespace faintline {
 
@@ -85,9 +61,8 @@ void MainWindow::buildCentre()
     layout->setSizeConstraint(QLayout::SetMaximumSize); // while the pages are hidden, a panel uses their space
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
-    m_liveBar = new LiveBar(m_document, *m_live);
-    m_liveBar->hide();
-    layout->addWidget(m_liveBar);
+    m_listening = new Listening(*this, *this);
+    layout->addWidget(&m_listening->bar());
     auto *pages = new QGridLayout; // a message lies over them, which keeps the pictures where they are
     pages->addWidget(m_pages, 0, 0);
     pages->addWidget(m_messages, 0, 0, Qt::AlignBottom);
@@ -99,17 +74,18 @@ void MainWindow::buildCentre()
 void MainWindow::buildPanels()
 {
     m_ownPresets = new OwnPresets(m_memory.presetFolder(), this);
-    m_pipeline = new PipelinePanel(m_document, m_controller, *m_ownPresets);
     m_threshold = new ExceedancePlot;
     m_threshold->setObjectName(QStringLiteral("threshold"));
     m_threshold->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
-    new ThresholdCurves(m_document, *m_threshold, this);
+    new ThresholdCurves(m_document, m_controller, *m_threshold, this);
     m_events = new EventTable;
     m_reviews = new EventReviews(
         m_document, *m_events,
         {m_workbench->input(), m_workbench->output(), m_pings->alongHistory(), m_pings->acrossHistory()}, this);
     m_reviews->setClassNames(m_memory.classNames());
     m_reviews->addMaps({m_pings->input(), m_pings->output()});
+    m_shownEvents = new ShownEvents(m_document, *m_events, this);
+    m_shownEvents->setSnrBandwidth(m_memory.snrBandwidthHz());
     m_boxAnalysis = new BoxAnalysis(m_document, m_controller, {m_workbench->input(), m_workbench->output()}, this);
     m_playback = new Playback(
         m_document,
@@ -118,82 +94,11 @@ void MainWindow::buildPanels()
             return events.empty() ? std::nullopt : std::optional(events.front());
         },
         this);
-    m_why = new WhyPanel(m_document, m_pings->viewports());
-    m_info = new InfoPanel(m_document, m_controller, m_check);
-    m_noiseFit = new NoiseFitPanel(m_document);
-    m_states = new StateSlicePanel(m_document, m_pings->viewports());
-    m_latency = new LatencyPanel(m_document);
-    m_handLine = new HandLinePanel(m_document,
-                                   {*m_workbench->input(), *m_workbench->outputView(), *m_workbench->statisticPlot()});
-    m_targets = new TargetsPanel(m_document, {m_pings->input(), m_pings->output()}, m_pings->viewports());
-    m_compare = new ComparePanel(m_document, m_controller, m_comparer);
-    m_spectrum = new SpectrumPanel(m_document);
-    m_channels = new ChannelsPanel(m_document, m_controller);
-    m_doppler = new DopplerPanel(m_document, *m_events, m_reviews->files().provenance());
-    m_evaluate = new EvaluatePanel(m_document, m_experiments);
-    m_sweep = new SweepPanel(m_document, m_experiments);
-    m_experimentList = new ExperimentsPanel(m_experiments);
-    m_reproduction = new ReproductionPanel;
-    m_survey = new SurveyPanel(m_document, m_controller);
-    m_sequential = new SequentialPanel(m_document, m_sequentialTests);
-}
-
-void MainWindow::buildDocks()
-{
-    using Place = Panels::Place;
-    m_panels->add(QStringLiteral("pipelineDock"), tr("All settings"), m_pipeline, Place::Left);
-    buildSettingsDock();
-    auto *main = new MainSettings(m_document, m_controller, MainSettings::few());
-    auto *threshold = new ThresholdPanel(*m_threshold, *main, m_controller, m_check);
-    // The threshold is above the events so that both are visible while dragging.
-    m_panels->add(QStringLiteral("thresholdDock"), tr("Threshold"), threshold, Place::RightTop);
-    const auto seen = std::make_shared<std::array<bool, 2>>(); // forms that have these settings, too
-    for (const std::size_t form : {std::size_t(0), std::size_t(1)})
-        connect(findChild<QDockWidget *>(QLatin1String(form == 0 ? "pipelineDock" : "settingsDock")),
-                &QDockWidget::visibilityChanged, threshold, [seen, form, threshold](bool isSeen) {
-                    (*seen)[form] = isSeen;
-                    threshold->setMainSettingsWanted(*seen == std::array{false, false});
-                });
-    m_panels->add(QStringLiteral("eventsDock"), tr("Events"), m_events, Place::RightBottom);
-    m_panels->add(QStringLiteral("whyDock"), tr("Why"), m_why, Place::RightBottom);
-    m_panels->add(QStringLiteral("noiseDock"), tr("Noise"), m_info, Place::RightBottom);
-    m_panels->add(QStringLiteral("noiseFitDock"), tr("Noise fit"), m_noiseFit, Place::RightBottom);
-    m_panels->add(QStringLiteral("statesDock"), tr("States"), m_states, Place::RightBottom);
-    m_panels->add(QStringLiteral("handDock"), tr("By hand"), m_handLine, Place::RightBottom);
-    m_handLine->parentWidget()->hide(); // until requested
-    m_panels->add(QStringLiteral("evaluateDock"), tr("Pd and ROC"), m_evaluate, Place::Bottom);
-    m_panels->add(QStringLiteral("spectrumDock"), tr("Spectrum"), m_spectrum, Place::Bottom);
-    m_panels->add(QStringLiteral("channelsDock"), tr("Channels"), m_channels, Place::Bottom);
-    m_panels->add(QStringLiteral("dopplerDock"), tr("Doppler fit"), m_doppler, Place::Bottom);
-    m_panels->add(QStringLiteral("compareDock"), tr("Compare"), m_compare, Place::Bottom);
-    m_panels->add(QStringLiteral("sweepDock"), tr("Sweep"), m_sweep, Place::Bottom);
-    m_panels->add(QStringLiteral("surveyDock"), tr("Survey"), m_survey, Place::Bottom);
-    m_panels->add(QStringLiteral("experimentsDock"), tr("Experiments"), m_experimentList, Place::Bottom);
-    m_panels->add(QStringLiteral("reproductionDock"), tr("Reproduction"), m_reproduction, Place::Bottom);
-    m_panels->add(QStringLiteral("sequentialDock"), tr("Sequential test"), m_sequential, Place::Bottom);
-    m_panels->add(QStringLiteral("latencyDock"), tr("Latency"), m_latency, Place::Bottom);
-    m_panels->add(QStringLiteral("targetsDock"), tr("Targets"), m_targets, Place::Bottom);
-}
-
-/// A dozen settings, and the form of all behind a button.
-void MainWindow::buildSettingsDock()
-{
-    auto *all = new QPushButton(tr("&All settings…"));
-    all->setToolTip(tr("The whole pipeline, with its presets"));
-    connect(all, &QPushButton::clicked, this, [this] { m_panels->show(m_pipeline); });
-    auto *column = new QWidget;
-    auto *layout = new QVBoxLayout(column);
-    layout->setContentsMargins(0, 4, 0, 4);
-    layout->addWidget(new MainSettings(m_document, m_controller, MainSettings::dozen()));
-    layout->addWidget(all, 0, Qt::AlignLeft);
-    layout->addStretch(1);
-    auto *area = new QScrollArea;
-    area->setFrameShape(QFrame::NoFrame);
-    area->setWidgetResizable(true);
-    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    area->setWidget(column);
-    m_panels->add(QStringLiteral("settingsDock"), tr("Settings"), area, Panels::Place::Left);
-    area->parentWidget()->hide(); // until a layout has it
+    m_listening->setPlayback(*m_playback);
+    for (const PanelRow &row : panelList())
+        m_docked.emplace_back(row.dock, row.make(*this));
+    for (std::size_t i = 0; i < m_docked.size(); ++i)
+        m_panels->add(panelList()[i], *m_docked[i].second);
 }
 
 void MainWindow::buildBottom()
@@ -208,12 +113,13 @@ void MainWindow::buildBottom()
         addToolBar(Qt::BottomToolBarArea, bar);
         m_bottomBars.push_back(bar);
     };
-    m_overview = new OverviewStrip;
-    m_overview->setViewport(&m_document.viewport());
+    auto *overview = new OverviewStrip;
+    connectOverview(*overview, m_document, *m_workbench);
     m_readOut = new ReadOut;
+    connectReadOut(*m_readOut, m_document, *m_workbench);
     addBar(QStringLiteral("readOutBar"), tr("Read-out"), m_readOut); // the first one is the lowest
     addToolBarBreak(Qt::BottomToolBarArea);
-    addBar(QStringLiteral("overviewBar"), tr("Overview"), m_overview);
+    addBar(QStringLiteral("overviewBar"), tr("Overview"), overview);
 }
 
 void MainWindow::buildStatusBar()

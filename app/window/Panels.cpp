@@ -1,5 +1,6 @@
 #include "app/window/Panels.h"
 
+#include "app/base/Panel.h"
 #include "app/base/screenSizes.h"
 #include "app/window/scaleText.h"
 
@@ -74,23 +75,24 @@ Panels::Panels(QMainWindow &window) : QObject(&window), m_window(window)
     window.installEventFilter(this);
 }
 
-void Panels::add(const QString &name, const QString &title, QWidget *panel, Place place)
+void Panels::add(const PanelRow &row, QWidget &panel)
 {
-    auto *dock = new QDockWidget(title);
-    dock->setObjectName(name);
-    dock->setWidget(panel);
-    if (place == Place::RightBottom)
-        panel->setMinimumHeight(std::min(leastPanel, panel->minimumSizeHint().height()));
-    if (place == Place::Bottom)
-        panel->setMinimumSize(panel->minimumSizeHint().boundedTo(leastSheet));
-    m_window.addDockWidget(areaOf(place), dock);
-    if (QDockWidget *before = last(place)) {
+    auto *dock = new QDockWidget(row.title);
+    dock->setObjectName(row.dock);
+    dock->setWidget(&panel);
+    if (row.place == Place::RightBottom)
+        panel.setMinimumHeight(std::min(leastPanel, panel.minimumSizeHint().height()));
+    if (row.place == Place::Bottom)
+        panel.setMinimumSize(panel.minimumSizeHint().boundedTo(leastSheet));
+    m_window.addDockWidget(areaOf(row.place), dock);
+    if (QDockWidget *before = last(row.place)) {
         m_window.tabifyDockWidget(before, dock);
-        first(place)->raise();
-    } else if (QDockWidget *above = place == Place::RightBottom ? last(Place::RightTop) : nullptr) {
+        first(row.place)->raise();
+    } else if (QDockWidget *above = row.place == Place::RightBottom ? last(Place::RightTop) : nullptr) {
         m_window.splitDockWidget(above, dock, Qt::Vertical);
     }
-    dock->setHidden(place == Place::Bottom);
+    dock->setHidden(row.isHidden || row.place == Place::Bottom);
+    dock->toggleViewAction()->setShortcut(row.key);
     connect(dock->toggleViewAction(), &QAction::triggered, dock, [this, dock](bool isShown) {
         if (isShown)
             bringForward(*dock, true);
@@ -99,7 +101,9 @@ void Panels::add(const QString &name, const QString &title, QWidget *panel, Plac
         if (!isFloating)
             dock->raise(); // it returns behind the panel that took its place
     });
-    m_entries.push_back({dock, place});
+    if (auto *own = qobject_cast<Panel *>(&panel))
+        connect(dock, &QDockWidget::visibilityChanged, own, &Panel::setSeen);
+    m_entries.push_back({dock, row.place});
 }
 
 bool Panels::eventFilter(QObject *watched, QEvent *event)
@@ -157,9 +161,9 @@ void Panels::arrangeColumns(const QSize &size)
         hide();
 }
 
-void Panels::show(QWidget *panel)
+void Panels::show(QWidget &panel)
 {
-    auto *dock = static_cast<QDockWidget *>(panel->parentWidget());
+    auto *dock = static_cast<QDockWidget *>(panel.parentWidget());
     const bool wasHidden = dock->isHidden();
     dock->show();
     bringForward(*dock, wasHidden);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "app/views/panelList.h"
+
 #include <QByteArray>
 #include <QList>
 #include <QObject>
@@ -22,13 +24,11 @@ class Panels : public QObject
     Q_OBJECT
 
 public:
-    /// Default position of a panel. Panels in the same place are tabs, the first one in front. Those at the bottom are
-    /// hidden until they are requested, because the pictures need the space.
-    enum class Place { Left, RightTop, RightBottom, Bottom };
+    using Place = PanelRow::Place;
 
     explicit Panels(QMainWindow &window);
 
-    void add(const QString &name, const QString &title, QWidget *panel, Place place);
+    void add(const PanelRow &row, QWidget &panel);
     /// Makes the present layout the default. Call after all panels have been added.
     void rememberDefault();
 
@@ -37,7 +37,7 @@ public:
     static constexpr int leastWithBars = 415;
     void setLeastPictures(int height) { m_leastPictures = height; }
 
-    void show(QWidget *panel); ///< shows the panel and raises it
+    void show(QWidget &panel); ///< shows the panel and raises it
     void hide();               ///< hides all panels
     QList<QAction *> toggleActions() const;
 

@@ -7,6 +7,7 @@
 #include "app/control/OutputLayers.h"
 #include "app/control/PlainInput.h"
 #include "app/control/Playback.h"
+#include "app/control/ShownEvents.h"
 #include "app/document/SessionSaver.h"
 #include "app/document/scenarios.h"
 #include "app/help/KeysOverlay.h"
@@ -17,7 +18,10 @@
 #include "app/panels/PipelinePanel.h"
 #include "app/panels/SequentialPanel.h"
 #include "app/views/WindowViews.h"
+#include "app/views/lineDialogs.h"
 #include "app/window/Commands.h"
+#include "app/window/Listening.h"
+#include "app/window/Opener.h"
 #include "app/window/Panels.h"
 #include "app/window/currentView.h"
 #include "app/workspace/PingBench.h"
@@ -74,28 +78,34 @@ private:
 
 void CommandTable::addFile()
 {
-    const auto toggleIq = [this] { w.takeAsIq(!w.m_document.source().options.iq); };
-    add(tr("&File"), {{tr("&Open…"), QKeySequence::Open, [this] { w.chooseFile(); },
-                       tr("Open a recording, a scenario or a session"), Always, "open"},
-                      {tr("Open &folder as one recording…"), noKey, [this] { w.chooseFolder(); },
-                       tr("Put the recordings of a folder on one timeline by their time stamps"), Always},
-                      {tr("Open as &raw samples…"), noKey, [this] { w.chooseRawFile(); }, noTip, Always},
-                      {tr("&Listen…"), Qt::CTRL | Qt::Key_L, [this] { w.listen(); },
-                       tr("Detect signals in live samples, and record the samples"), Always},
-                      {tr("New sonar sc&ene"), noKey, [this] { w.newScene(); },
-                       tr("Open a scene of noise, and place targets in it"), Always},
-                      {.text = tr("Open re&cent"), .entries = [this](QMenu &recent) { w.fillRecentMenu(recent); }}});
+    const auto showIq = [this](QAction &action) {
+        action.setCheckable(true);
+        action.setChecked(w.m_document.source().options.iq);
+        action.setVisible(w.m_opener->canBeIq() || action.isChecked());
+    };
+    const auto toggleIq = [this] { w.m_opener->takeAsIq(!w.m_document.source().options.iq); };
+    add(tr("&File"),
+        {{tr("&Open…"), QKeySequence::Open, [this] { w.m_opener->chooseFile(); },
+          tr("Open a recording, a scenario or a session"), Always, "open"},
+         {tr("Open &folder as one recording…"), noKey, [this] { w.m_opener->chooseFolder(); },
+          tr("Put the recordings of a folder on one timeline by their time stamps"), Always},
+         {tr("Open as &raw samples…"), noKey, [this] { w.m_opener->chooseRawFile(); }, noTip, Always},
+         {tr("&Listen…"), Qt::CTRL | Qt::Key_L, [this] { w.m_listening->ask(); },
+          tr("Detect signals in live samples, and record the samples"), Always},
+         {tr("New sonar sc&ene"), noKey, [this] { w.m_opener->newScene(); },
+          tr("Open a scene of noise, and place targets in it"), Always},
+         {.text = tr("Open re&cent"), .entries = [this](QMenu &recent) { w.m_opener->fillRecentMenu(recent); }}});
     for (const auto &examples : {exampleRecordings(), scenarios()})
         for (const Scenario &example : examples)
-            add(tr("&File/Exa&mples"),
-                {{example.title, noKey, [this, path = example.path] { w.open(path); }, example.sentence, Always}});
-    add(tr("&File"), {{tr("&Next file of the folder"), Qt::CTRL | Qt::Key_PageDown, [this] { w.goToFile(1); },
+            add(tr("&File/Exa&mples"), {{example.title, noKey, [this, path = example.path] { w.m_opener->open(path); },
+                                         example.sentence, Always}});
+    add(tr("&File"), {{tr("&Next file of the folder"), Qt::CTRL | Qt::Key_PageDown, [this] { w.m_opener->goToFile(1); },
                        tr("Open the next recording with the same settings")},
-                      {tr("Previo&us file of the folder"), Qt::CTRL | Qt::Key_PageUp, [this] { w.goToFile(-1); },
-                       tr("Open the previous recording with the same settings")},
+                      {tr("Previo&us file of the folder"), Qt::CTRL | Qt::Key_PageUp,
+                       [this] { w.m_opener->goToFile(-1); }, tr("Open the previous recording with the same settings")},
                       {tr("&Welcome page"), noKey, [this] { w.showWelcome(); }, noTip, Always},
                       {},
-                      {tr("Take channels as &I and Q"), noKey, toggleIq, noTip, Shown, "iq"},
+                      {tr("Take channels as &I and Q"), noKey, toggleIq, noTip, Shown, "", noTip, false, showIq},
                       {},
                       {tr("&Save session"), QKeySequence::Save, [this] { w.m_saver->save(); }},
                       {tr("Save session &as…"), QKeySequence::SaveAs, [this] { w.m_saver->saveAs(); }},
@@ -120,8 +130,8 @@ void CommandTable::addEdit()
     add(tr("&Edit"), {{.when = Always, .actions = {undo, redo}},
                       {},
                       {tr("Reset all &settings"), noKey, reset},
-                      {tr("Save settings as &preset…"), noKey, [this] { w.m_pipeline->savePreset(); }},
-                      {tr("&Delete preset…"), noKey, [this] { w.m_pipeline->removePreset(); }}});
+                      {tr("Save settings as &preset…"), noKey, [this] { w.panel<PipelinePanel>().savePreset(); }},
+                      {tr("&Delete preset…"), noKey, [this] { w.panel<PipelinePanel>().removePreset(); }}});
 }
 
 void CommandTable::addView()
@@ -203,7 +213,7 @@ void CommandTable::addLayers()
     for (const auto &[text, hz] : bandwidths)
         add(tr("&View/S&NR in the bandwidth"),
             {onOff({text, noKey, [this, hz = hz] { w.setSnrBandwidth(hz); }, noTip, Always, "", noTip, true},
-                   [this, hz = hz] { return hz == w.m_snrBandwidthHz; })});
+                   [this, hz = hz] { return hz == w.m_shownEvents->snrBandwidth(); })});
 }
 
 /// Panels, layouts, themes.
@@ -257,14 +267,14 @@ void CommandTable::addLines()
          {},
          {tr("Doppler &fit"), Qt::Key_D, show("doppler"),
           tr("Fit a source that passes at constant speed to the selected event's track"), Shown, "doppler"},
-         {tr("S&traighten recording along this track…"), Qt::Key_T, [this] { w.straighten(); }, noTip, Shown,
+         {tr("S&traighten recording along this track…"), Qt::Key_T, [this] { straighten(w, w); }, noTip, Shown,
           "straighten", tr("Straighten…")},
-         {tr("Learn &motion from tracks…"), noKey, [this] { w.learnMotion(); }},
+         {tr("Learn &motion from tracks…"), noKey, [this] { learnMotion(w, w); }},
          {},
          {tr("Draw a line &by hand"), Qt::CTRL | Qt::Key_D, show("hand")},
          {tr("Pla&ce sonar targets"), Qt::CTRL | Qt::SHIFT | Qt::Key_D, show("targets"),
           tr("Place the targets of a simulated scene on the map, and edit them in a table")},
-         {tr("&Inject a line…"), Qt::CTRL | Qt::Key_I, [this] { w.injectLine(); }}});
+         {tr("&Inject a line…"), Qt::CTRL | Qt::Key_I, [this] { injectLine(w, w); }}});
 }
 
 /// Runs of the detector, and what tells how good they are.
@@ -276,11 +286,11 @@ void CommandTable::addAnalyse()
     };
     const auto keep = [this] {
         w.showView(QStringLiteral("compare"));
-        w.m_compare->keep();
+        w.panel<ComparePanel>().keep();
     };
     const auto test = [this] {
         w.showView(QStringLiteral("sequential"));
-        w.m_sequential->startOnSelection();
+        w.panel<SequentialPanel>().startOnSelection();
     };
     add(tr("&Analyse"),
         {{tr("&Run again"), Qt::CTRL | Qt::Key_R, [this] { w.m_controller.run(); }, noTip, Shown, "run", tr("Run")},
@@ -292,12 +302,12 @@ void CommandTable::addAnalyse()
          {tr("Threshold &up"), Qt::Key_Period, [this] { w.m_controller.stepThreshold(1); }},
          {},
          {tr("&Keep as A"), Qt::CTRL | Qt::Key_B, keep},
-         {tr("Swap &A and B"), Qt::CTRL | Qt::SHIFT | Qt::Key_B, [this] { w.m_compare->swap(); }},
-         {tr("&Go to A"), noKey, [this] { w.m_compare->goToA(); }},
+         {tr("Swap &A and B"), Qt::CTRL | Qt::SHIFT | Qt::Key_B, [this] { w.panel<ComparePanel>().swap(); }},
+         {tr("&Go to A"), noKey, [this] { w.panel<ComparePanel>().goToA(); }},
          {},
          {tr("&Pd and ROC"), Qt::CTRL | Qt::Key_P, show("pd"),
           tr("How often lines of an SNR are found, at a rate of false alarms")},
-         {tr("&Experiments"), noKey, [this] { w.m_panels->show(w.m_experimentList); }},
+         {tr("&Experiments"), noKey, [this] { w.show(w.panel<ExperimentsPanel>()); }},
          {tr("S&weep a setting"), Qt::CTRL | Qt::SHIFT | Qt::Key_P, show("sweep"),
           tr("How often lines are found with each of several values of a setting")},
          {tr("&Noise fit"), noKey, show("noisefit"),
@@ -326,7 +336,7 @@ void CommandTable::addHelp()
         };
         add(tr("&Help/&Lessons"), {{lesson.title,
                                     noKey,
-                                    [this, &lesson] { w.startLesson(lesson); },
+                                    [this, &lesson] { w.m_opener->startLesson(lesson); },
                                     lesson.sentence,
                                     Always,
                                     "",
@@ -334,9 +344,10 @@ void CommandTable::addHelp()
                                     false,
                                     tick}});
     }
-    add(tr("&Help/&Lessons"), {{},
-                               {tr("&New lesson from what is shown…"), noKey, [this] { w.saveLesson(true); }},
-                               {tr("&Add what is shown to a lesson…"), noKey, [this] { w.saveLesson(false); }}});
+    add(tr("&Help/&Lessons"),
+        {{},
+         {tr("&New lesson from what is shown…"), noKey, [this] { w.m_opener->saveLesson(true); }},
+         {tr("&Add what is shown to a lesson…"), noKey, [this] { w.m_opener->saveLesson(false); }}});
     const auto isQuick = std::make_shared<bool>(true);
     const QString papers = tr("&Help/&Reproduce a paper’s figure");
     add(papers, {onOff({tr("&Quick: a tenth of the trials"), noKey, [isQuick] { *isQuick = !*isQuick; }, noTip, Always},

@@ -52,7 +52,7 @@ protected:
     }
 
     PingBench &bench() const { return m_window->pingBench(); }
-    TargetsPanel &panel() const { return m_window->targets(); }
+    TargetsPanel &panel() const { return m_window->panel<TargetsPanel>(); }
     const PingScene &scene() const { return *m_window->document().source().pings; }
     const PingTarget &last() const { return scene().targets.back(); }
     WaterfallView &plane() const { return *bench().output()->plane(); }

@@ -57,7 +57,7 @@ bool showAndSettle(MainWindow &window)
 {
     window.showView("channels");
     QCoreApplication::processEvents();
-    return settle(window.channels());
+    return settle(window.panel<ChannelsPanel>());
 }
 
 } // namespace
@@ -76,7 +76,7 @@ private slots:
     {
         const auto window = newWindow();
         QVERIFY(openAndSettle(*window, recordingOf(m_folder, 2), makeQuick));
-        ChannelsPanel &panel = window->channels();
+        ChannelsPanel &panel = window->panel<ChannelsPanel>();
         QVERIFY(!isBusy(panel)); // nothing is computed for a hidden panel
         QVERIFY(showAndSettle(*window));
         QVERIFY2(sentenceOf(panel).isEmpty(), qPrintable(sentenceOf(panel)));
@@ -96,7 +96,7 @@ private slots:
         const auto window = newWindow();
         QVERIFY(openAndSettle(*window, recordingOf(m_folder, 2), makeQuick));
         QVERIFY(showAndSettle(*window));
-        LinkedPictures &pictures = window->channels().pictures();
+        LinkedPictures &pictures = window->panel<ChannelsPanel>().pictures();
         Viewport &viewport = window->document().viewport();
         viewport.zoomTo({10.0, 20.0}, {100.0, 140.0});
         for (int place = 0; place < 2; ++place) {
@@ -115,7 +115,7 @@ private slots:
         const auto window = newWindow();
         QVERIFY(openAndSettle(*window, recordingOf(m_folder, 3), makeQuick));
         QVERIFY(showAndSettle(*window));
-        ChannelsPanel &panel = window->channels();
+        ChannelsPanel &panel = window->panel<ChannelsPanel>();
         const auto kept = panel.pictures().at(1).picture();
         QTest::mouseClick(panel.pictures().at(2).canvas(), Qt::LeftButton, {}, {20, 20});
         QCOMPARE(window->document().settings().selection.channel, 2);
@@ -140,9 +140,9 @@ private slots:
             settings.selection.channels = {0.0, 2.0};
         }));
         QVERIFY(showAndSettle(*window));
-        QCOMPARE(titlesOf(window->channels()),
+        QCOMPARE(titlesOf(window->panel<ChannelsPanel>()),
                  QStringList({"Channel 0, analysed", "Channel 1", "Channel 2, analysed"}));
-        QTest::mouseClick(window->channels().pictures().at(0).canvas(), Qt::LeftButton, {}, {20, 20});
+        QTest::mouseClick(window->panel<ChannelsPanel>().pictures().at(0).canvas(), Qt::LeftButton, {}, {20, 20});
         QVERIFY(window->document().settings().selection.channels.empty()); // this one alone
         QVERIFY(settle(*window));
     }
@@ -152,7 +152,7 @@ private slots:
         const auto window = newWindow();
         QVERIFY(openAndSettle(*window, recordingOf(m_folder, 2), makeQuick));
         QVERIFY(showAndSettle(*window));
-        ChannelsPanel &panel = window->channels();
+        ChannelsPanel &panel = window->panel<ChannelsPanel>();
         const auto before = panel.pictures().at(0).picture();
         window->controller().edit("spectrogram.windowSeconds", 1.0, "longer");
         QVERIFY(settle(*window));
@@ -170,7 +170,7 @@ private slots:
         const auto window = newWindow({1280, 800});
         QVERIFY(openAndSettle(*window, recordingOf(m_folder, 11), makeQuick));
         QVERIFY(showAndSettle(*window));
-        ChannelsPanel &panel = window->channels();
+        ChannelsPanel &panel = window->panel<ChannelsPanel>();
         QCOMPARE(panel.pictures().count(), ChannelsPanel::mostAtOnce);
         for (const int first : {8, 0, 8}) // the last one counts
             panel.setFirstChannel(first);
@@ -192,14 +192,14 @@ private slots:
         {
             const auto window = newWindow();
             QVERIFY(openAndSettle(*window, recordingOf(m_folder, 11), makeQuick));
-            window->channels().setFirstChannel(8);
+            window->panel<ChannelsPanel>().setFirstChannel(8);
             window->document().viewport().zoomTo({10.0, 20.0}, {100.0, 140.0});
             const ViewState kept = window->viewState();
             QCOMPARE(kept.firstChannel, 8);
             window->restore(ViewState());
-            QCOMPARE(window->channels().firstChannel(), 0);
+            QCOMPARE(window->panel<ChannelsPanel>().firstChannel(), 0);
             window->restore(kept);
-            QCOMPARE(window->channels().firstChannel(), 8);
+            QCOMPARE(window->panel<ChannelsPanel>().firstChannel(), 8);
         }
         ViewState view;
         view.firstChannel = 8;
@@ -211,11 +211,11 @@ private slots:
     {
         const auto window = newWindow();
         window->showView("channels");
-        QVERIFY(!sentenceOf(window->channels()).isEmpty()); // nothing is open
+        QVERIFY(!sentenceOf(window->panel<ChannelsPanel>()).isEmpty()); // nothing is open
         QVERIFY(openAndSettle(*window, recordingOf(m_folder, 1), makeQuick));
         QVERIFY(showAndSettle(*window));
-        QCOMPARE(sentenceOf(window->channels()), QString("This recording has only one channel."));
-        QCOMPARE(window->channels().pictures().count(), 0);
+        QCOMPARE(sentenceOf(window->panel<ChannelsPanel>()), QString("This recording has only one channel."));
+        QCOMPARE(window->panel<ChannelsPanel>().pictures().count(), 0);
     }
 
     void aSilentChannelSaysSo()
@@ -232,8 +232,8 @@ private slots:
         const auto window = newWindow();
         QVERIFY(openAndSettle(*window, path, makeQuick));
         QVERIFY(showAndSettle(*window));
-        QVERIFY(window->channels().pictures().at(0).picture());
-        QVERIFY(!window->channels().pictures().at(1).picture());
+        QVERIFY(window->panel<ChannelsPanel>().pictures().at(0).picture());
+        QVERIFY(!window->panel<ChannelsPanel>().pictures().at(1).picture());
     }
 
     /// By the View menu, which the palette searches.
@@ -249,8 +249,8 @@ private slots:
         QVERIFY(found && found->isEnabled());
         found->trigger();
         QCoreApplication::processEvents();
-        QVERIFY(window->channels().isVisible());
-        QVERIFY(settle(window->channels()));
+        QVERIFY(window->panel<ChannelsPanel>().isVisible());
+        QVERIFY(settle(window->panel<ChannelsPanel>()));
     }
 
     void followsTheOrientation()
@@ -258,7 +258,7 @@ private slots:
         const auto window = newWindow();
         QVERIFY(openAndSettle(*window, recordingOf(m_folder, 2), makeQuick));
         QVERIFY(showAndSettle(*window));
-        LinkedPictures &pictures = window->channels().pictures();
+        LinkedPictures &pictures = window->panel<ChannelsPanel>().pictures();
         window->workbench().output()->setOrientation(WaterfallView::Orientation::LeftToRight);
         QCoreApplication::processEvents();
         QCOMPARE(pictures.at(1).orientation(), WaterfallView::Orientation::LeftToRight);

@@ -33,7 +33,7 @@ private slots:
     void everyChartHasTheMenu_data()
     {
         QTest::addColumn<QWidget *>("chart");
-        QTest::newRow("pd") << static_cast<QWidget *>(&m_window->evaluation().pd());
+        QTest::newRow("pd") << static_cast<QWidget *>(&m_window->panel<EvaluatePanel>().pd());
         QTest::newRow("threshold") << static_cast<QWidget *>(&m_window->thresholdPlot());
         QTest::newRow("statistic") << static_cast<QWidget *>(m_window->workbench().statisticPlot());
     }

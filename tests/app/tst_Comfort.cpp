@@ -238,7 +238,7 @@ private slots:
         QTest::keyClick(m_window.get(), Qt::Key_K, Qt::ControlModifier);
         QTest::keyClicks(palette->line(), "Setting: Signal model: Slopes per bin");
         QTest::keyClick(palette->line(), Qt::Key_Return);
-        QWidget *editor = m_window->pipeline().form()->editor("model.slopesPerBin");
+        QWidget *editor = m_window->panel<PipelinePanel>().form()->editor("model.slopesPerBin");
         QTRY_VERIFY(editor->hasFocus() && !editor->visibleRegion().isEmpty());
     }
 

@@ -45,7 +45,7 @@ private slots:
         });
         settle(window, settled);
         const AnalysisSettings first = window.document().settings();
-        ComparePanel &panel = window.comparePanel();
+        ComparePanel &panel = window.panel<ComparePanel>();
         QVERIFY(!buttonOf(panel, "Swap")->isEnabled());
 
         QTest::keyClick(&window, Qt::Key_B, Qt::ControlModifier);

@@ -41,7 +41,7 @@ private:
     static constexpr double speedOfSound = 343.0, rate = 1000.0, length = 120.0;
     static constexpr double restHz = 210.0, speed = 30.0, range = 200.0, closest = 58.0;
 
-    DopplerPanel &panel() { return m_window->doppler(); }
+    DopplerPanel &panel() { return m_window->panel<DopplerPanel>(); }
 
     QTemporaryDir m_folder;
     std::unique_ptr<MainWindow> m_window;

@@ -51,8 +51,14 @@ private:
     {
         return QTest::qWaitFor([this] { return !m_window->experiments().isBusy(); }, patience);
     }
-    const Experiments::Entry &shown() { return *m_window->experiments().entry(m_window->evaluation().shown()); }
-    void fillForm(int runs) { m_window->evaluation().form().setQuick(runs, {"3 of 4", "integrator"}, {0.0, 3.0}); }
+    const Experiments::Entry &shown()
+    {
+        return *m_window->experiments().entry(m_window->panel<EvaluatePanel>().shown());
+    }
+    void fillForm(int runs)
+    {
+        m_window->panel<EvaluatePanel>().form().setQuick(runs, {"3 of 4", "integrator"}, {0.0, 3.0});
+    }
 
     QTemporaryDir m_folder;
     std::unique_ptr<MainWindow> m_window;
@@ -73,21 +79,22 @@ void tst_Evaluation::anExperimentGrowsAndEnds()
 {
     fillForm(3);
     QSignalSpy changed(&m_window->experiments(), &Experiments::changed);
-    m_window->evaluation().start();
+    m_window->panel<EvaluatePanel>().start();
     QVERIFY(m_window->experiments().isBusy());
     QVERIFY(idle());
     QVERIFY(shown().state == Experiments::State::Done);
     QCOMPARE(shown().runsDone(), 3);
     QVERIFY(changed.count() >= 2);
-    QCOMPARE(m_window->evaluation().column().note(), QString()); // it is the form's own
+    QCOMPARE(m_window->panel<EvaluatePanel>().column().note(), QString()); // it is the form's own
     fillForm(4);
-    const QString note = m_window->evaluation().column().note();
+    const QString note = m_window->panel<EvaluatePanel>().column().note();
     QVERIFY2(note.contains("3 runs, 0 … 3 dB, 100 T_FT, seed 1"), qPrintable(note));
     fillForm(3);
-    QCOMPARE(m_window->evaluation().column().note(), QString());
-    const Chart &chart = m_window->evaluation().pd().chart();
-    QCOMPARE(chart.curves.size(), std::size_t(3));                           // two measured, Marcum's Q
-    QVERIFY(m_window->evaluation().pd().toolTip().contains("below theory")); // why Marcum's Q is beside its curve
+    QCOMPARE(m_window->panel<EvaluatePanel>().column().note(), QString());
+    const Chart &chart = m_window->panel<EvaluatePanel>().pd().chart();
+    QCOMPARE(chart.curves.size(), std::size_t(3)); // two measured, Marcum's Q
+    QVERIFY(
+        m_window->panel<EvaluatePanel>().pd().toolTip().contains("below theory")); // why Marcum's Q is beside its curve
     QCOMPARE(chart.curves[0].points.size(), std::size_t(2));
     QVERIFY(chart.curves[1].points[0].y > chart.curves[0].points[0].y); // who knows the duration is better
 
@@ -99,7 +106,7 @@ void tst_Evaluation::anExperimentGrowsAndEnds()
 
 void tst_Evaluation::aPointOpensItsTrials()
 {
-    ChartPlot &pd = m_window->evaluation().pd();
+    ChartPlot &pd = m_window->panel<EvaluatePanel>().pd();
     QSignalSpy opened(&m_window->trials(), &TrialViewer::shown);
     emit pd.pointActivated(1, 1);
     QVERIFY(opened.wait(patience));
@@ -121,15 +128,15 @@ void tst_Evaluation::aPointOpensItsTrials()
 void tst_Evaluation::cancelKeepsTheRunsThereAre()
 {
     fillForm(10000);
-    m_window->evaluation().start();
-    const int id = m_window->evaluation().shown();
+    m_window->panel<EvaluatePanel>().start();
+    const int id = m_window->panel<EvaluatePanel>().shown();
     QVERIFY(QTest::qWaitFor([&] { return m_window->experiments().entry(id)->runsDone() >= 1; }, patience));
-    m_window->evaluation().cancel();
+    m_window->panel<EvaluatePanel>().cancel();
     QVERIFY(m_window->experiments().entry(id)->state == Experiments::State::Cancelled);
     QVERIFY(!m_window->experiments().isBusy());
     const int runs = m_window->experiments().entry(id)->runsDone();
     QVERIFY(runs >= 1 && runs < 10000);
-    QVERIFY(!m_window->evaluation().pd().chart().curves.empty());
+    QVERIFY(!m_window->panel<EvaluatePanel>().pd().chart().curves.empty());
     QTest::qWait(50);
     QCOMPARE(m_window->experiments().entry(id)->runsDone(), runs); // nothing trickles in
 }
@@ -138,12 +145,12 @@ void tst_Evaluation::oneAfterTheOther()
 {
     Experiments &experiments = m_window->experiments();
     fillForm(1);
-    m_window->evaluation().start();
-    const int first = m_window->evaluation().shown();
-    m_window->evaluation().start();
-    const int second = m_window->evaluation().shown();
-    m_window->evaluation().start();
-    const int third = m_window->evaluation().shown();
+    m_window->panel<EvaluatePanel>().start();
+    const int first = m_window->panel<EvaluatePanel>().shown();
+    m_window->panel<EvaluatePanel>().start();
+    const int second = m_window->panel<EvaluatePanel>().shown();
+    m_window->panel<EvaluatePanel>().start();
+    const int third = m_window->panel<EvaluatePanel>().shown();
     QVERIFY(experiments.entry(first)->state == Experiments::State::Running);
     QVERIFY(experiments.entry(second)->state == Experiments::State::Waiting);
     experiments.remove(second);
@@ -152,13 +159,13 @@ void tst_Evaluation::oneAfterTheOther()
     QVERIFY(!experiments.entry(second));
     QVERIFY(experiments.entry(third)->state == Experiments::State::Done);
     QVERIFY(experiments.entry(first)->campaign->outcomes == experiments.entry(third)->campaign->outcomes);
-    emit m_window->experimentList().showRequested(first);
-    QCOMPARE(m_window->evaluation().shown(), first);
+    emit m_window->panel<ExperimentsPanel>().showRequested(first);
+    QCOMPARE(m_window->panel<EvaluatePanel>().shown(), first);
 }
 
 void tst_Evaluation::whatCannotRunSaysWhy()
 {
-    ExperimentForm &form = m_window->evaluation().form();
+    ExperimentForm &form = m_window->panel<EvaluatePanel>().form();
     form.setQuick(1, {}, {0.0, 3.0});
     QVERIFY(form.obstacle().contains("detector"));
     form.setQuick(1, {"3 of 4"}, {});
@@ -169,9 +176,9 @@ void tst_Evaluation::whatCannotRunSaysWhy()
 
 void tst_Evaluation::curvesComeBackFromFiles()
 {
-    ExperimentsPanel &list = m_window->experimentList();
-    const int id = m_window->evaluation().shown();
-    const Chart before = m_window->evaluation().pd().chart();
+    ExperimentsPanel &list = m_window->panel<ExperimentsPanel>();
+    const int id = m_window->panel<EvaluatePanel>().shown();
+    const Chart before = m_window->panel<EvaluatePanel>().pd().chart();
     list.exportTo(id, m_folder.filePath("curve.csv"));
     list.exportTo(id, m_folder.filePath("runs.jsonl"));
     QVERIFY_EXCEPTION_THROWN(list.exportTo(id, m_folder.filePath("curve.svg")),
@@ -185,12 +192,12 @@ void tst_Evaluation::curvesComeBackFromFiles()
     QCOMPARE(replay.readAllStandardError(), QByteArray());
     QCOMPARE(replay.readAllStandardOutput(), QByteArray("curve.csv: the same bytes\n"));
     fillForm(7);
-    m_window->evaluation().show(list.importFile(m_folder.filePath("runs.jsonl")));
-    QCOMPARE(m_window->evaluation().column().note(), QString()); // the form shows its values
-    QCOMPARE(m_window->evaluation().pd().chart().curves.size(), before.curves.size());
+    m_window->panel<EvaluatePanel>().show(list.importFile(m_folder.filePath("runs.jsonl")));
+    QCOMPARE(m_window->panel<EvaluatePanel>().column().note(), QString()); // the form shows its values
+    QCOMPARE(m_window->panel<EvaluatePanel>().pd().chart().curves.size(), before.curves.size());
     QVERIFY(shown().campaign->outcomes == m_window->experiments().entry(id)->campaign->outcomes);
-    m_window->evaluation().show(list.importFile(m_folder.filePath("curve.csv")));
-    const Chart after = m_window->evaluation().pd().chart();
+    m_window->panel<EvaluatePanel>().show(list.importFile(m_folder.filePath("curve.csv")));
+    const Chart after = m_window->panel<EvaluatePanel>().pd().chart();
     QCOMPARE(after.curves.size(), std::size_t(2));
     QCOMPARE(after.curves[1].points[1].y, before.curves[1].points[1].y);
     QVERIFY_EXCEPTION_THROWN(list.importFile(m_folder.filePath("scene.json")), Error);
@@ -208,20 +215,20 @@ void tst_Evaluation::theFormShowsTheOpenedExperiment()
     lines.driftCellsPerWindow = 0.1;
     lines.detectors = {peer("integrator", 80.0), peer("energy", 80.0)};
     lines.detectors.back().name = "one frame";
-    ExperimentForm &form = m_window->evaluation().form();
+    ExperimentForm &form = m_window->panel<EvaluatePanel>().form();
     fillForm(3);
-    m_window->evaluation().show(m_window->experimentList().open(
+    m_window->panel<EvaluatePanel>().show(m_window->panel<ExperimentsPanel>().open(
         writeFile(m_folder, "own.json", QByteArray::fromStdString(toJson(lines).dump()))));
     QVERIFY(idle());
     QVERIFY(form.lines() == lines);
-    QCOMPARE(m_window->evaluation().column().note(), QString());
+    QCOMPARE(m_window->panel<EvaluatePanel>().column().note(), QString());
     const auto hasBox = [&] {
         return std::ranges::any_of(form.findChildren<QCheckBox *>(),
                                    [](const QCheckBox *box) { return box->text() == "one frame" && box->isChecked(); });
     };
     QVERIFY(hasBox());
     lines.detectors.front().settings.model.snr = 2.0; // another one of the same name
-    m_window->evaluation().show(m_window->experimentList().open(
+    m_window->panel<EvaluatePanel>().show(m_window->panel<ExperimentsPanel>().open(
         writeFile(m_folder, "own.json", QByteArray::fromStdString(toJson(lines).dump()))));
     QVERIFY(idle());
     QVERIFY(form.lines() == lines);
@@ -229,7 +236,7 @@ void tst_Evaluation::theFormShowsTheOpenedExperiment()
                                 [](const QCheckBox *box) { return box->text() == "integrator, as opened"; }));
     lines.detectors.front() = peer("integrator", 80.0);
     lines.detectors.pop_back();
-    m_window->evaluation().show(m_window->experimentList().open(
+    m_window->panel<EvaluatePanel>().show(m_window->panel<ExperimentsPanel>().open(
         writeFile(m_folder, "own.json", QByteArray::fromStdString(toJson(lines).dump()))));
     QVERIFY(idle());
     QVERIFY(form.lines() == lines);
@@ -238,17 +245,17 @@ void tst_Evaluation::theFormShowsTheOpenedExperiment()
 
 void tst_Evaluation::linesInThisRecording()
 {
-    ExperimentForm &form = m_window->evaluation().form();
+    ExperimentForm &form = m_window->panel<EvaluatePanel>().form();
     form.setQuick(4, {"integrator"}, {6.0});
     form.setInRecording(true);
-    m_window->evaluation().start();
+    m_window->panel<EvaluatePanel>().start();
     QVERIFY(idle());
     form.setInRecording(false);
     QVERIFY2(shown().state == Experiments::State::Done, qPrintable(shown().failure));
     QCOMPARE(shown().runsDone(), 4);
-    QCOMPARE(m_window->evaluation().pd().chart().curves.size(), std::size_t(1));
+    QCOMPARE(m_window->panel<EvaluatePanel>().pd().chart().curves.size(), std::size_t(1));
     QSignalSpy opened(&m_window->trials(), &TrialViewer::shown);
-    emit m_window->evaluation().pd().pointActivated(0, 0);
+    emit m_window->panel<EvaluatePanel>().pd().pointActivated(0, 0);
     QVERIFY(opened.wait(patience));
     QCOMPARE(m_window->trials().window()->document().truth().lines.size(), std::size_t(1));
     m_window->trials().window()->close();
@@ -299,20 +306,21 @@ void tst_Evaluation::aReproductionShowsItsTable()
     QVERIFY(idle());
     QVERIFY2(m_window->experiments().entry(id)->reproduction != nullptr,
              qPrintable(m_window->experiments().entry(id)->failure));
-    QCOMPARE(m_window->reproduction().findChild<QTableWidget *>()->rowCount(), 2);
-    QVERIFY(m_window->reproduction().isVisible());
-    QCOMPARE(m_window->reproduction().plot().chart().curves.size(), std::size_t(2));
-    m_window->experimentList().exportTo(id, m_folder.filePath("out"));
+    QCOMPARE(m_window->panel<ReproductionPanel>().findChild<QTableWidget *>()->rowCount(), 2);
+    QVERIFY(m_window->panel<ReproductionPanel>().isVisible());
+    QCOMPARE(m_window->panel<ReproductionPanel>().plot().chart().curves.size(), std::size_t(2));
+    m_window->panel<ExperimentsPanel>().exportTo(id, m_folder.filePath("out"));
     QVERIFY(QFile::exists(m_folder.filePath("out/billon-figure1.svg")));
 }
 
 void tst_Evaluation::theNoiseIsMeasuredWhileItIsSeen()
 {
     m_window->showView("noisefit");
-    QVERIFY(settle(m_window->noiseFit()));
-    QCOMPARE(m_window->noiseFit().table()->rowCount(), 6);
-    QVERIFY2(sentenceOf(m_window->noiseFit()).contains("law"), qPrintable(sentenceOf(m_window->noiseFit())));
-    QCOMPARE(m_window->noiseFit().plot().chart().curves.size(), std::size_t(7));
+    QVERIFY(settle(m_window->panel<NoiseFitPanel>()));
+    QCOMPARE(m_window->panel<NoiseFitPanel>().table()->rowCount(), 6);
+    QVERIFY2(sentenceOf(m_window->panel<NoiseFitPanel>()).contains("law"),
+             qPrintable(sentenceOf(m_window->panel<NoiseFitPanel>())));
+    QCOMPARE(m_window->panel<NoiseFitPanel>().plot().chart().curves.size(), std::size_t(7));
 }
 
 FAINTLINE_WINDOW_TEST(tst_Evaluation)

@@ -89,7 +89,7 @@ void tst_FamilyViews::theInputTellsTheMembersAtTheCursor()
 void tst_FamilyViews::theSpectrumIsTheRecordingsWithTheTeethMarked()
 {
     Viewport &viewport = m_window->document().viewport();
-    SpectrumPanel &panel = m_window->spectrum();
+    SpectrumPanel &panel = m_window->panel<SpectrumPanel>();
     viewport.setCursor({20.0, fundamental});
     QTest::keyClick(m_window.get(), Qt::Key_S, Qt::ShiftModifier);
     QVERIFY(settle(panel));
@@ -117,7 +117,7 @@ void tst_FamilyViews::theSpectrumIsTheRecordingsWithTheTeethMarked()
 
 void tst_FamilyViews::whyTellsWhatEachMemberBrought()
 {
-    WhyPanel &why = m_window->why();
+    WhyPanel &why = m_window->panel<WhyPanel>();
     m_window->document().viewport().setCursor({30.0, fundamental});
     QTest::keyClick(m_window.get(), Qt::Key_W);
     QVERIFY(settle(why));
@@ -143,11 +143,11 @@ void tst_FamilyViews::singleLinesHaveNoTeeth()
     m_window->controller().setSettings(settings, "No family");
     QVERIFY(settle(*m_window));
     QCOMPARE(m_window->workbench().input()->cursorNote(), QString());
-    QVERIFY(settle(m_window->why()));
-    QVERIFY(m_window->why().teeth()->isHidden());
+    QVERIFY(settle(m_window->panel<WhyPanel>()));
+    QVERIFY(m_window->panel<WhyPanel>().teeth()->isHidden());
     QTest::keyClick(m_window.get(), Qt::Key_S, Qt::ShiftModifier);
-    QVERIFY(settle(m_window->spectrum()));
-    QVERIFY(m_window->spectrum().plot().marks().empty());
+    QVERIFY(settle(m_window->panel<SpectrumPanel>()));
+    QVERIFY(m_window->panel<SpectrumPanel>().plot().marks().empty());
     const WaterfallView &input = *m_window->workbench().input();
     QVERIFY(input.axisTitle(input.hzAxis()).text().startsWith("Frequency"));
 }

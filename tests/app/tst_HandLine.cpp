@@ -33,7 +33,7 @@ private slots:
 private:
     QPoint at(double seconds, double hz) const { return input().positionOf({seconds, hz}).toPoint(); }
     WaterfallView &input() const { return *m_window->workbench().input(); }
-    HandLinePanel &panel() const { return m_window->handLine(); }
+    HandLinePanel &panel() const { return m_window->panel<HandLinePanel>(); }
     bool isSettled() const { return !isBusy(panel()) && panel().comparison(); }
 
     QTemporaryDir m_folder;

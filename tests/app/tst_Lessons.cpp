@@ -108,7 +108,7 @@ Act setting(const char *name, const char *value)
 void clickOnBlueWalk(MainWindow &window)
 {
     const auto &walks = window.sequentialTests().walks();
-    WalkPlot &plot = window.sequential().walk();
+    WalkPlot &plot = window.panel<SequentialPanel>().walk();
     for (int i = 0; i < int(walks.size()); ++i)
         if (const auto &[run, result] = walks[std::size_t(i)];
             !run.hasTarget && window.sequentialTests().selected() != i) {
@@ -165,8 +165,8 @@ const QMap<QString, Act> &acts()
         {"when-to-stop 1", clickOnBlueWalk},
         {"when-to-stop 3",
          [](MainWindow &window) {
-             enter(window.sequential().form().editor("sprt.miss"), "0.1");
-             for (QPushButton *button : window.sequential().findChildren<QPushButton *>())
+             enter(window.panel<SequentialPanel>().form().editor("sprt.miss"), "0.1");
+             for (QPushButton *button : window.panel<SequentialPanel>().findChildren<QPushButton *>())
                  if (button->text() == "Run")
                      QTest::mouseClick(button, Qt::LeftButton);
          }},
@@ -494,7 +494,7 @@ void tst_Lessons::whatIsShownBecomesALesson()
     auto *dock = window->findChild<QDockWidget *>("whyDock");
     dock->show();
     dock->raise();
-    QTRY_VERIFY(isInSight(window->why()));
+    QTRY_VERIFY(isInSight(window->panel<WhyPanel>()));
     writeNewLesson(*window, path);
     const AnalysisSettings first = document.settings();
     const auto firstBox = document.viewport().visible();
@@ -520,7 +520,7 @@ void tst_Lessons::whatIsShownBecomesALesson()
     again->open(path);
     QTRY_VERIFY_WITH_TIMEOUT(again->lessonGuide().isReady(), patience);
     QVERIFY(again->document().settings() == first);
-    QVERIFY(again->why().isVisible());
+    QVERIFY(again->panel<WhyPanel>().isVisible());
     QCOMPARE(again->document().viewport().visible(), firstBox);
     QCOMPARE(again->document().viewport().cursor(), std::optional(Viewport::Point{60.0, 400.0}));
     QCOMPARE(failure(*again, lesson.steps.front().facts), std::string());
@@ -597,7 +597,7 @@ void tst_Lessons::aLessonOfScansPutsTheRecordingAside()
     QVERIFY(window->workbench().isVisible());
     window->open(QStringLiteral(":/lessons/when-to-stop.json"));
     QTRY_VERIFY_WITH_TIMEOUT(window->lessonGuide().isReady(), patience);
-    QVERIFY(window->sequential().isVisible());
+    QVERIFY(window->panel<SequentialPanel>().isVisible());
     QVERIFY(!window->workbench().isVisible());
     QVERIFY2(window->windowTitle().startsWith("Radar scans"), qPrintable(window->windowTitle()));
     window->lessonGuide().leave();
@@ -736,10 +736,10 @@ void tst_Lessons::presentedPanelsOfOtherStepsAreAway()
     guide.start(readLesson(":/lessons/choosing-h.json"), 2);
     QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
     QTest::keyClick(window.get(), Qt::Key_F5);
-    QVERIFY(window->why().isVisible());
+    QVERIFY(window->panel<WhyPanel>().isVisible());
     guide.goTo(3); // points to a picture
     QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
-    QVERIFY(!window->why().isVisible());
+    QVERIFY(!window->panel<WhyPanel>().isVisible());
     QVERIFY(!window->findChild<SettingsForm *>()->isVisible());
     QTest::keyClick(window.get(), Qt::Key_F5);
     QVERIFY(window->findChild<SettingsForm *>()->isVisible());

@@ -26,7 +26,7 @@ private slots:
     {
         const auto window = newWindow();
         QVERIFY(openAndSettle(*window, m_scene));
-        NoiseCheck &check = *window->info().check();
+        NoiseCheck &check = *window->panel<InfoPanel>().check();
         QVERIFY(settle(window->recordingCheck()));
         QVERIFY(label(check, "noiseWarning")->isHidden()); // white noise follows its law
         button(check, "countOnSurrogates")->click();
@@ -43,7 +43,7 @@ private slots:
     {
         const auto window = newWindow();
         QVERIFY(openAndSettle(*window, m_scene));
-        NoiseCheck &check = *window->info().check();
+        NoiseCheck &check = *window->panel<InfoPanel>().check();
         QVERIFY(settle(window->recordingCheck()));
         check.toggle();
         QVERIFY(isBusy(window->recordingCheck()));
@@ -56,7 +56,7 @@ private slots:
     {
         const auto window = newWindow();
         QVERIFY(openAndSettle(*window, m_scene));
-        NoiseCheck &check = *window->info().check();
+        NoiseCheck &check = *window->panel<InfoPanel>().check();
         QVERIFY(settle(window->recordingCheck()));
         const double before = window->document().analysis()->threshold;
         SurrogateCount count;

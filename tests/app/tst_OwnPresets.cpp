@@ -57,14 +57,14 @@ private slots:
                                         R"({"sampleRateHz": 200, "durationSeconds": 60, "noise": {"deviation": 1}})");
         QVERIFY(openAndSettle(*window, scene,
                               [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; }));
-        auto *combo = window->pipeline().findChildren<QComboBox *>().front();
+        auto *combo = window->panel<PipelinePanel>().findChildren<QComboBox *>().front();
         QCOMPARE(combo->currentText(), QString("Own settings"));
         QTimer::singleShot(0, this, [] {
             auto *dialog = qobject_cast<QInputDialog *>(QApplication::activeModalWidget());
             dialog->setTextValue("Half a second");
             dialog->accept();
         });
-        window->pipeline().savePreset();
+        window->panel<PipelinePanel>().savePreset();
         QCOMPARE(combo->currentText(), QString("Half a second"));
         QVERIFY(openAndSettle(*window, scene));
         QVERIFY(combo->currentText() != "Half a second");

@@ -225,7 +225,7 @@ private slots:
     {
         const auto w = window();
         QVERIFY(openWithNineRates(*w, path("pings.json")));
-        StateSlicePanel &states = w->states();
+        StateSlicePanel &states = w->panel<StateSlicePanel>();
         w->pingBench().showPing(18);
         w->showView("slice");
         QVERIFY(settle(states));
@@ -254,10 +254,10 @@ private slots:
         const auto w = window();
         QVERIFY(openWithNineRates(*w, path("pings.json")));
         w->showView("slice");
-        w->states().findChild<QTabBar *>()->setCurrentIndex(1);
+        w->panel<StateSlicePanel>().findChild<QTabBar *>()->setCurrentIndex(1);
         QCoreApplication::processEvents();          // the bars find their places
-        QCOMPARE(w->states().law().plotCount(), 1); // a slope set has one law for both axes
-        LawPlot &plot = *w->states().law().plot(0);
+        QCOMPARE(w->panel<StateSlicePanel>().law().plotCount(), 1); // a slope set has one law for both axes
+        LawPlot &plot = *w->panel<StateSlicePanel>().law().plot(0);
         const std::vector<double> before = w->document().settings().model.slopeChange;
         const QPoint from = plot.canvasPosition(1, 0.2).toPoint();
         const QPoint to = plot.canvasPosition(1, 0.05).toPoint();
@@ -273,8 +273,8 @@ private slots:
         // Targets that turn have a law for each of their rates.
         QSignalSpy settled(&w->controller(), &AnalysisController::settled);
         w->controller().edit("model.motion", std::string("manoeuvring"), "motion");
-        QCOMPARE(w->states().law().plotCount(), 2);
-        emit w->states().law().lawRequested("model.bearingRateChange", {0.8, 0.1});
+        QCOMPARE(w->panel<StateSlicePanel>().law().plotCount(), 2);
+        emit w->panel<StateSlicePanel>().law().lawRequested("model.bearingRateChange", {0.8, 0.1});
         QCOMPARE(w->document().settings().model.bearingRateChange, (std::vector<double>{0.8, 0.1}));
         QVERIFY(settled.wait(patience));
         QCOMPARE(w->document().analysis()->model.space.axes()[1].rateChange, (std::vector<double>{0.8, 0.1}));
@@ -285,9 +285,9 @@ private slots:
         const auto w = window();
         QVERIFY(openWithNineRates(*w, path("pings.json")));
         w->showView("noisefit");
-        QVERIFY(settle(w->noiseFit()));
-        const auto *table = w->noiseFit().findChild<QTableWidget *>();
-        QVERIFY2(table->rowCount() > 0, qPrintable(sentenceOf(w->noiseFit())));
+        QVERIFY(settle(w->panel<NoiseFitPanel>()));
+        const auto *table = w->panel<NoiseFitPanel>().findChild<QTableWidget *>();
+        QVERIFY2(table->rowCount() > 0, qPrintable(sentenceOf(w->panel<NoiseFitPanel>())));
         for (int row = 0; row < table->rowCount(); ++row)
             QVERIFY2(table->item(row, 0)->text().endsWith(QString::fromUtf8("°")),
                      qPrintable(table->item(row, 0)->text()));
@@ -299,8 +299,8 @@ private slots:
         QVERIFY(openWithNineRates(*w, path("pings.json")));
         w->pingBench().selectEvent(w->document().shownEvents().front().id);
         QTest::keyClick(w.get(), Qt::Key_W);
-        QVERIFY(settle(w->why()));
-        WhyPanel &why = w->why();
+        QVERIFY(settle(w->panel<WhyPanel>()));
+        WhyPanel &why = w->panel<WhyPanel>();
         const Explanation &explanation = *why.explanation();
         QVERIFY2(sentenceOf(why).startsWith("Detected"), qPrintable(sentenceOf(why)));
         QCOMPARE(why.ladder()->rowCount(), int(explanation.steps.size()));
@@ -321,21 +321,21 @@ private slots:
     {
         const auto w = window();
         QVERIFY(openWithNineRates(*w, path("stack.npy")));
-        QVERIFY(w->latency().obstacle().contains("scene"));
+        QVERIFY(w->panel<LatencyPanel>().obstacle().contains("scene"));
         QVERIFY(openWithNineRates(*w, path("pings.json")));
-        QVERIFY2(w->latency().obstacle().isEmpty(), qPrintable(w->latency().obstacle()));
-        w->latency().start(3);
-        QVERIFY(settle(w->latency()));
-        const Chart &pd = w->latency().pdPlot()->chart();
+        QVERIFY2(w->panel<LatencyPanel>().obstacle().isEmpty(), qPrintable(w->panel<LatencyPanel>().obstacle()));
+        w->panel<LatencyPanel>().start(3);
+        QVERIFY(settle(w->panel<LatencyPanel>()));
+        const Chart &pd = w->panel<LatencyPanel>().pdPlot()->chart();
         QCOMPARE(pd.curves.size(), std::size_t(2));
         for (std::size_t i = 1; i < pd.curves[0].points.size(); ++i)
             QVERIFY(pd.curves[0].points[i].y >= pd.curves[0].points[i - 1].y);
         QVERIFY(pd.curves[0].points.back().y >= pd.curves[1].points.back().y); // what is confirmed is detected
         double counted = 0.0;
-        for (const Curve::Point &point : w->latency().histogramPlot()->chart().curves[0].points)
+        for (const Curve::Point &point : w->panel<LatencyPanel>().histogramPlot()->chart().curves[0].points)
             counted += point.y;
         QCOMPARE(counted, 6.0 * pd.curves[0].points.back().y); // two targets, three runs
-        QVERIFY(sentenceOf(w->latency()).contains("6 targets in 3 runs"));
+        QVERIFY(sentenceOf(w->panel<LatencyPanel>()).contains("6 targets in 3 runs"));
     }
 
     void aSessionComesBackAsItWas()

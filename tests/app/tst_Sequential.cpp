@@ -75,7 +75,7 @@ private slots:
     void viewsAreSaved();
 
 private:
-    SequentialPanel &panel() { return m_window->sequential(); }
+    SequentialPanel &panel() { return m_window->panel<SequentialPanel>(); }
     SequentialTests &tests() { return m_window->sequentialTests(); }
     bool settle()
     {

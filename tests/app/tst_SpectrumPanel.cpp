@@ -31,7 +31,7 @@ private slots:
             "lines": [{"snrDb": 20, "referenceSeconds": 0.5, "startSeconds": 30, "frequencyHz": 120}]})"),
                               [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; }));
         Viewport &viewport = window->document().viewport();
-        SpectrumPanel &panel = window->spectrum();
+        SpectrumPanel &panel = window->panel<SpectrumPanel>();
         viewport.setCursor({45.0, 120.0});
         QVERIFY(panel.plot().chart().curves.empty()); // the panel is hidden
         QTest::keyClick(window.get(), Qt::Key_S, Qt::ShiftModifier);
@@ -76,7 +76,7 @@ private slots:
                                   settings.spectrogram.windowSeconds = 0.5;
                                   settings.subtract.lines = true;
                               }));
-        SpectrumPanel &panel = window->spectrum();
+        SpectrumPanel &panel = window->panel<SpectrumPanel>();
         window->document().viewport().setCursor({45.0, 120.0});
         QTest::keyClick(window.get(), Qt::Key_S, Qt::ShiftModifier);
         QVERIFY(settle(panel));

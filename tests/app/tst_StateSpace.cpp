@@ -56,7 +56,7 @@ class tst_StateSpace : public QObject
     QString m_scene;
     std::unique_ptr<MainWindow> m_window;
 
-    LawPlot &law() { return *m_window->states().law().plot(0); }
+    LawPlot &law() { return *m_window->panel<StateSlicePanel>().law().plot(0); }
     const std::vector<double> &setting() { return m_window->document().settings().model.slopeChange; }
 
 private slots:
@@ -84,8 +84,8 @@ private slots:
     void theSliceFollowsTheCursor()
     {
         m_window->showView("slice");
-        QVERIFY(settle(m_window->states()));
-        StateSlicePanel &states = m_window->states();
+        QVERIFY(settle(m_window->panel<StateSlicePanel>()));
+        StateSlicePanel &states = m_window->panel<StateSlicePanel>();
         const Analysis &analysis = *m_window->document().analysis();
         QCOMPARE(states.view()->picture()->cells(), analysis.grid().size());
         QCOMPARE(states.view()->picture()->rowCount(0), Index(5)); // slopes
@@ -94,7 +94,7 @@ private slots:
         Viewport &viewport = m_window->document().viewport();
         const double seconds = analysis.time().value(double(analysis.time().nearest(30.0)));
         viewport.setCursor({seconds, 205.0});
-        QVERIFY(settle(m_window->states()));
+        QVERIFY(settle(m_window->panel<StateSlicePanel>()));
         QVERIFY(std::abs(states.marks().best()->column - (200.0 + 0.5 * seconds)) < 3.0);
         QVERIFY(!states.marks().paths().empty());
         const QString there = sentenceOf(states);
@@ -107,10 +107,10 @@ private slots:
         };
         const auto before = row();
         QTest::keyClick(m_window->workbench().output(), Qt::Key_L);
-        QVERIFY(settle(m_window->states()));
+        QVERIFY(settle(m_window->panel<StateSlicePanel>()));
         QVERIFY(sentenceOf(states) != there);
         QTest::keyClick(m_window->workbench().output(), Qt::Key_J);
-        QVERIFY(settle(m_window->states()));
+        QVERIFY(settle(m_window->panel<StateSlicePanel>()));
         QCOMPARE(sentenceOf(states), there);
         QCOMPARE(row(), before);
         // A click in the slice takes its frequency, not its slope.
@@ -129,8 +129,8 @@ private slots:
             settings.decide.thresholdNats = 20.0;
         }));
         m_window->showView("slice");
-        QVERIFY(settle(m_window->states()));
-        StateSlicePanel &states = m_window->states();
+        QVERIFY(settle(m_window->panel<StateSlicePanel>()));
+        StateSlicePanel &states = m_window->panel<StateSlicePanel>();
         QCOMPARE(states.view()->picture()->rowCount(0), Index(17)); // -1 … 1 in eighths of a bin
         const Axis &time = m_window->document().analysis()->time();
         m_window->document().viewport().setCursor({time.value(double(time.nearest(30.0))), 215.0});
@@ -147,10 +147,10 @@ private slots:
     void theRangeIsThatOfTheCanvasAsItIs()
     {
         m_window->showView("slice");
-        QVERIFY(settle(m_window->states()));
-        const WaterfallView &view = *m_window->states().view();
+        QVERIFY(settle(m_window->panel<StateSlicePanel>()));
+        const WaterfallView &view = *m_window->panel<StateSlicePanel>().view();
         const Span narrow = view.range();
-        auto *dock = qobject_cast<QDockWidget *>(m_window->states().parentWidget());
+        auto *dock = qobject_cast<QDockWidget *>(m_window->panel<StateSlicePanel>().parentWidget());
         m_window->resizeDocks({dock}, {500}, Qt::Horizontal);
         QCoreApplication::processEvents();
         const Span wide = view.range();
@@ -160,7 +160,7 @@ private slots:
         const Viewport::Point cursor = *viewport.cursor();
         for (const double seconds : {cursor.seconds + 1.0, cursor.seconds}) {
             viewport.setCursor({seconds, cursor.hz});
-            QVERIFY(settle(m_window->states()));
+            QVERIFY(settle(m_window->panel<StateSlicePanel>()));
         }
         QCOMPARE(view.range(), wide);
     }
@@ -168,22 +168,22 @@ private slots:
     void frequenciesAreTheWaterfalls()
     {
         m_window->showView("slice");
-        QVERIFY(settle(m_window->states()));
+        QVERIFY(settle(m_window->panel<StateSlicePanel>()));
         Viewport &viewport = m_window->document().viewport();
         viewport.zoomTo(viewport.time(), {150.0, 250.0});
-        QCOMPARE(m_window->states().view()->viewport()->frequency(), (Span{150.0, 250.0}));
-        m_window->states().view()->viewport()->zoomTo(m_window->states().view()->viewport()->time(), {180.0, 220.0});
+        QCOMPARE(m_window->panel<StateSlicePanel>().view()->viewport()->frequency(), (Span{150.0, 250.0}));
+        m_window->panel<StateSlicePanel>().view()->viewport()->zoomTo(m_window->panel<StateSlicePanel>().view()->viewport()->time(), {180.0, 220.0});
         QCOMPARE(viewport.frequency(), (Span{180.0, 220.0}));
     }
 
     void aBarIsDraggedAndUndone()
     {
         m_window->showView("slice");
-        m_window->states().findChild<QTabBar *>()->setCurrentIndex(1);
-        QVERIFY(settle(m_window->states()));
+        m_window->panel<StateSlicePanel>().findChild<QTabBar *>()->setCurrentIndex(1);
+        QVERIFY(settle(m_window->panel<StateSlicePanel>()));
         QVERIFY(law().isVisible());
         const std::vector<double> before = setting();
-        const QString words = sentenceOf(m_window->states().law());
+        const QString words = sentenceOf(m_window->panel<StateSlicePanel>().law());
         QVERIFY(words.contains(QStringLiteral("1.10 nat")));
         const int steps = m_window->document().undoStack().count();
 
@@ -192,7 +192,7 @@ private slots:
         QVERIFY2(std::abs(setting()[0] - (before[0] + 0.3)) < 0.02, qPrintable(QString::number(setting()[0])));
         QVERIFY(std::abs(total(setting()) - 1.0) < 1e-9);
         QCOMPARE(m_window->document().undoStack().count(), steps + 1);
-        QVERIFY(sentenceOf(m_window->states().law()) != words);
+        QVERIFY(sentenceOf(m_window->panel<StateSlicePanel>().law()) != words);
         QVERIFY(settle(*m_window));
         QCOMPARE(m_window->document().analysis()->model.space.axes()[0].rateChange, setting());
 
@@ -212,7 +212,7 @@ private slots:
     void escapeLetsItBe()
     {
         m_window->showView("slice");
-        m_window->states().findChild<QTabBar *>()->setCurrentIndex(1);
+        m_window->panel<StateSlicePanel>().findChild<QTabBar *>()->setCurrentIndex(1);
         const std::vector<double> before = setting();
         dragBar(law(), 0, 0.3, false);
         QVERIFY(law().law() != before); // seen while it is dragged
@@ -226,7 +226,7 @@ private slots:
     void barsMoveByKey()
     {
         m_window->showView("slice");
-        m_window->states().findChild<QTabBar *>()->setCurrentIndex(1);
+        m_window->panel<StateSlicePanel>().findChild<QTabBar *>()->setCurrentIndex(1);
         law().setFocus();
         QCOMPARE(law().selected(), 0);
         QTest::keyClick(&law(), Qt::Key_Right);

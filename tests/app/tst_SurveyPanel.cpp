@@ -33,7 +33,7 @@ class tst_SurveyPanel : public QObject
     SurveySettings m_settings;
 
     std::string path(const char *name) const { return m_folder.filePath(name).toStdString(); }
-    SurveyPanel &panel() const { return m_window->survey(); }
+    SurveyPanel &panel() const { return m_window->panel<SurveyPanel>(); }
     QTableView &table() const { return *panel().table(); }
     QString text(int row, int column) const { return table().model()->index(row, column).data().toString(); }
     bool openSurvey(const char *name) const

@@ -39,7 +39,7 @@ private slots:
         MainWindow &window = *own;
         openLine(window);
         window.showView("sweep");
-        SweepPanel &panel = window.sweep();
+        SweepPanel &panel = window.panel<SweepPanel>();
         panel.form().setParameter("decide.thresholdNats");
         panel.form().setRange(5.0, 15.0, 3, false);
         panel.form().setLines(3.0, 10.0, 4);
@@ -75,7 +75,7 @@ private slots:
         window.setAsking(false);
         window.show();
         openLine(window);
-        SweepPanel &panel = window.sweep();
+        SweepPanel &panel = window.panel<SweepPanel>();
         panel.form().setRange(5.0, 15.0, 3, false);
         panel.form().setLines(3.0, 10.0, 5000);
         panel.start();
@@ -92,7 +92,7 @@ private slots:
     {
         MainWindow window;
         window.setAsking(false);
-        SweepPanel &panel = window.sweep();
+        SweepPanel &panel = window.panel<SweepPanel>();
         QSignalSpy failed(&panel, &SweepPanel::failed);
         panel.form().setParameter("model.snr");
         panel.form().setRange(-3.0, 1.0, 3, false);

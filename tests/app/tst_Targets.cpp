@@ -263,7 +263,7 @@ void tst_Targets::unsavedTargetsSurvive()
     m_window = newWindow({1400, 1000}, {}, left.path());
     QVERIFY(openAndSettle(*m_window, m_path, takeNineRates));
     QSignalSpy kept(&m_window->recovery(), &Recovery::kept);
-    m_window->targets().editor().addTarget();
+    m_window->panel<TargetsPanel>().editor().addTarget();
     QVERIFY(m_window->document().isModified());
     QVERIFY(kept.wait(patience));
     const Session session = readSession(kept.first().first().toString().toStdString());
@@ -291,7 +291,7 @@ void tst_Targets::onTheWelcomePageANewSceneShowsItsPanel()
     QVERIFY(window->welcome().isVisible());
     window->newScene();
     QTRY_VERIFY_WITH_TIMEOUT(window->pingBench().isVisible(), patience);
-    QTRY_VERIFY(!window->targets().visibleRegion().isEmpty());
+    QTRY_VERIFY(!window->panel<TargetsPanel>().visibleRegion().isEmpty());
     window->controller().stop();
 }
 

@@ -98,7 +98,7 @@ QImage sonarPicture(const Analysis &analysis)
 /// Of one scan, and the walks of the tests.
 QImage radarPicture(MainWindow &window)
 {
-    SequentialPanel &panel = window.sequential();
+    SequentialPanel &panel = window.panel<SequentialPanel>();
     CellPicture &scan = panel.trajectory().scan();
     return above(bare(scan, 10.0, scan), bare(panel.walk(), 20.0, panel.walk()));
 }

@@ -33,7 +33,7 @@ private:
     void askAt(double seconds, double hz)
     {
         m_window->document().viewport().setCursor({seconds, hz});
-        QVERIFY(settle(m_window->why()));
+        QVERIFY(settle(m_window->panel<WhyPanel>()));
     }
 
     QTemporaryDir m_folder;
@@ -49,7 +49,7 @@ void tst_WhyPanel::initTestCase()
     m_window = newWindow();
     QVERIFY(openAndSettle(*m_window, scene));
     QTest::keyClick(m_window.get(), Qt::Key_W);
-    QVERIFY(m_window->why().isVisible());
+    QVERIFY(m_window->panel<WhyPanel>().isVisible());
 }
 
 void tst_WhyPanel::termsAddUp_data()
@@ -68,7 +68,7 @@ void tst_WhyPanel::termsAddUp()
     QFETCH(double, hz);
     QFETCH(QString, begins);
     askAt(seconds, hz);
-    WhyPanel &why = m_window->why();
+    WhyPanel &why = m_window->panel<WhyPanel>();
     QVERIFY2(sentenceOf(why).startsWith(begins), qPrintable(sentenceOf(why)));
     const Explanation &explanation = *why.explanation();
     double sum = 0.0;
@@ -84,7 +84,7 @@ void tst_WhyPanel::termsAddUp()
 void tst_WhyPanel::noNumberIsCutShort()
 {
     askAt(40.0, 120.0);
-    const QTableWidget &ladder = *m_window->why().ladder();
+    const QTableWidget &ladder = *m_window->panel<WhyPanel>().ladder();
     QCoreApplication::processEvents();
     QVERIFY(ladder.rowCount() > 20);
     const QFontMetrics metrics(ladder.font());
@@ -100,9 +100,9 @@ void tst_WhyPanel::otherDetectorsSayThatTheyHaveNoPath()
     QSignalSpy analysed(&m_window->document(), &Document::analysisChanged);
     m_window->controller().edit("detector.kind", std::string("pOfN"), "detector");
     QVERIFY(analysed.wait(patience));
-    QVERIFY(settle(m_window->why()));
-    QVERIFY2(sentenceOf(m_window->why()).contains("path"), qPrintable(sentenceOf(m_window->why())));
-    QCOMPARE(m_window->why().ladder()->rowCount(), 0);
+    QVERIFY(settle(m_window->panel<WhyPanel>()));
+    QVERIFY2(sentenceOf(m_window->panel<WhyPanel>()).contains("path"), qPrintable(sentenceOf(m_window->panel<WhyPanel>())));
+    QCOMPARE(m_window->panel<WhyPanel>().ladder()->rowCount(), 0);
 }
 
 void tst_WhyPanel::theNextRecordingHasNoPathYet()
@@ -110,7 +110,7 @@ void tst_WhyPanel::theNextRecordingHasNoPathYet()
     m_window->controller().setSettings(AnalysisSettings(), "Defaults");
     QVERIFY(settle(*m_window));
     askAt(40.0, 120.0);
-    WhyPanel &why = m_window->why();
+    WhyPanel &why = m_window->panel<WhyPanel>();
     QVERIFY(why.explanation());
     QString sentence;
     int rows = -1;
@@ -134,7 +134,7 @@ void tst_WhyPanel::aCureIsAClickAway()
     m_window->controller().edit("spectrogram.windowSeconds", 0.5, "window");
     QVERIFY(settle(*m_window));
     askAt(1.5, 180.0);
-    WhyPanel &why = m_window->why();
+    WhyPanel &why = m_window->panel<WhyPanel>();
     QVERIFY(why.remedy()->isHidden());
     askAt(1.5, 92.0);
     QVERIFY(why.remedy()->isVisible());

@@ -289,7 +289,7 @@ void tst_hostileNames::curvesAreHarmless()
     const auto window = newWindow();
     QVERIFY(openAndSettle(*window, pathText(writeLine(pathOfName("plain.wav")))));
     const int before = window->minimumSizeHint().width();
-    emit window->experimentList().showRequested(window->experimentList().importFile(path));
+    emit window->panel<ExperimentsPanel>().showRequested(window->panel<ExperimentsPanel>().importFile(path));
     QCoreApplication::processEvents();
     QCOMPARE(firstHarmful(*window), QString());
     QCOMPARE(firstTagged(*window), QString());

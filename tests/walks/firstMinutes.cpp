@@ -67,7 +67,7 @@ void askOfALine(Walk &walk)
     });
     walk.takePicture("first-3-card");
     walk.click("Why", "QToolButton");
-    walk.waitUntil("why", [&] { return walk.window().why().explanation() != nullptr; });
+    walk.waitUntil("why", [&] { return walk.window().panel<WhyPanel>().explanation() != nullptr; });
     walk.takePicture("first-4-why");
 }
 

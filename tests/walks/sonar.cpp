@@ -62,7 +62,7 @@ void explainTarget(Walk &walk)
     walk.waitUntil("a chosen track", [&] { return table.selectedEvent() != 0; });
     walk.hand.press("w");
     walk.waitUntil("the steps of its path", [&] {
-        const WhyPanel &why = walk.window().why();
+        const WhyPanel &why = walk.window().panel<WhyPanel>();
         return why.isVisible() && why.explanation() && why.ladder()->rowCount() > 0;
     });
     walk.takePicture("sonar-why");
@@ -74,7 +74,7 @@ void takeLayout(Walk &walk)
     walk.choose({"View", "Layout", "Active sonar"});
     walk.waitUntil("wide maps", [&] {
         const PingBench &bench = walk.window().pingBench();
-        return walk.window().states().isVisible() && bench.input()->width() >= 350 && bench.output()->width() >= 350;
+        return walk.window().panel<StateSlicePanel>().isVisible() && bench.input()->width() >= 350 && bench.output()->width() >= 350;
     });
     walk.takePicture("sonar-layout");
 }
@@ -92,12 +92,12 @@ void testScans(Walk &walk)
     walk.hand.press("j");
     walk.waitUntil("a stage earlier", [&] { return walk.window().sequentialTests().stage() == stage - 1; });
     walk.clickTab("Trajectory and scan");
-    walk.waitUntil("the scan", [&] { return walk.window().sequential().trajectory().isVisible(); });
+    walk.waitUntil("the scan", [&] { return walk.window().panel<SequentialPanel>().trajectory().isVisible(); });
     walk.takePicture("radar-scan");
     walk.hand.press("l");
     walk.waitUntil("a stage later", [&] { return walk.window().sequentialTests().stage() == stage; });
     walk.clickTab("Sectors");
-    walk.waitUntil("sectors", [&] { return walk.window().sequential().sectorsPage()->isVisible(); });
+    walk.waitUntil("sectors", [&] { return walk.window().panel<SequentialPanel>().sectorsPage()->isVisible(); });
 }
 
 void goThrough(Walk &walk)

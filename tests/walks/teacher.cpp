@@ -62,7 +62,7 @@ void present(Walk &walk)
     walk.takePicture("teacher-presentation");
     walk.hand.press("Escape");
     walk.waitUntil("the window again", [&] {
-        return !walk.window().isFullScreen() && guide(walk).dock()->isVisible() && walk.window().pipeline().isVisible();
+        return !walk.window().isFullScreen() && guide(walk).dock()->isVisible() && walk.window().panel<PipelinePanel>().isVisible();
     });
     walk.takePicture("teacher-after-presentation");
 }
@@ -72,10 +72,10 @@ void dragLaw(Walk &walk)
 {
     walk.hand.click(walk.placeIn(*walk.window().workbench().output(), 60.0, 250.0));
     walk.hand.press("s");
-    walk.waitUntil("the states", [&] { return walk.window().states().isVisible(); });
+    walk.waitUntil("the states", [&] { return walk.window().panel<StateSlicePanel>().isVisible(); });
     walk.clickTab("Law");
     const auto before = walk.see([&] { return walk.window().document().settings().model.slopeChange; });
-    const auto plot = [&] { return walk.window().states().law().findChild<LawPlot *>(); };
+    const auto plot = [&] { return walk.window().panel<StateSlicePanel>().law().findChild<LawPlot *>(); };
     const auto bar = [&](double height) {
         return walk.placeIn([&]() -> QWidget * { return plot() ? plot()->canvas() : nullptr; },
                             [&] { return plot()->canvasPosition(0.0, height); });

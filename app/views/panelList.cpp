@@ -1,0 +1,211 @@
+#include "app/views/panelList.h"
+
+#include "app/base/tr.h"
+#include "app/control/EventFiles.h"
+#include "app/control/EventReviews.h"
+#include "app/control/OutputLayers.h"
+#include "app/panels/ChannelsPanel.h"
+#include "app/panels/ComparePanel.h"
+#include "app/panels/DopplerPanel.h"
+#include "app/panels/EvaluatePanel.h"
+#include "app/panels/ExperimentsPanel.h"
+#include "app/panels/HandLinePanel.h"
+#include "app/panels/InfoPanel.h"
+#include "app/panels/LatencyPanel.h"
+#include "app/panels/MainSettings.h"
+#include "app/panels/NoiseFitPanel.h"
+#include "app/panels/PipelinePanel.h"
+#include "app/panels/ReproductionPanel.h"
+#include "app/panels/SequentialPanel.h"
+#include "app/panels/SpectrumPanel.h"
+#include "app/panels/StateSlicePanel.h"
+#include "app/panels/SurveyPanel.h"
+#include "app/panels/SweepPanel.h"
+#include "app/panels/TargetsPanel.h"
+#include "app/panels/ThresholdPanel.h"
+#include "app/panels/WhyPanel.h"
+#include "app/views/WindowParts.h"
+#include "app/workspace/PingBench.h"
+#include "app/workspace/Workbench.h"
+#include "widgets/base/quantities.h"
+#include "widgets/base/settingWords.h"
+#include "widgets/events/EventTable.h"
+#include "widgets/plot/ExceedancePlot.h"
+#include "widgets/plot/StripPlot.h"
+#include "widgets/waterfall/LinkedPictures.h"
+
+#include <QPushButton>
+#include <QScrollArea>
+#include <QVBoxLayout>
+
+namespace faintline {
+
+namespace {
+
+    /// A dozen settings, and the form of all behind a button.
+    QWidget *makeSettings(WindowParts &parts)
+    {
+        auto *all = new QPushButton(tr("&All settings…"));
+        all->setToolTip(tr("The whole pipeline, with its presets"));
+        QObject::connect(all, &QPushButton::clicked, all, [&parts] { parts.show(parts.panel<PipelinePanel>()); });
+        auto *column = new QWidget;
+        auto *layout = new QVBoxLayout(column);
+        layout->setContentsMargins(0, 4, 0, 4);
+        layout->addWidget(new MainSettings(parts.document(), parts.controller(), MainSettings::dozen()));
+        layout->addWidget(all, 0, Qt::AlignLeft);
+        layout->addStretch(1);
+        auto *area = new QScrollArea;
+        area->setFrameShape(QFrame::NoFrame);
+        area->setWidgetResizable(true);
+        area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+        area->setWidget(column);
+        return area;
+    }
+
+    QWidget *makeThreshold(WindowParts &parts)
+    {
+        auto *main = new MainSettings(parts.document(), parts.controller(), MainSettings::few());
+        return new ThresholdPanel(parts.thresholdPlot(), *main, parts.controller(), parts.recordingCheck());
+    }
+
+    QWidget *makeWhy(WindowParts &parts)
+    {
+        auto *panel = new WhyPanel(parts.document(), parts.pingBench().viewports());
+        QObject::connect(panel, &WhyPanel::remedyRequested, panel, [&parts](const Advice &advice) {
+            parts.controller().setSettings(parts.recordingCheck().remedied(advice),
+                                           capitalised(QString::fromStdString(advice.remedy)));
+        });
+        return panel;
+    }
+
+    QWidget *makeStates(WindowParts &parts)
+    {
+        auto *panel = new StateSlicePanel(parts.document(), parts.workbench().layers(), parts.pingBench().viewports());
+        QObject::connect(panel, &StateSlicePanel::lawRequested, panel,
+                         [&parts](const QString &field, const std::vector<double> &law) {
+                             parts.controller().edit(field, law, tr("Change “%1”").arg(settingLabel(field)));
+                         });
+        return panel;
+    }
+
+    QWidget *makeHandLine(WindowParts &parts)
+    {
+        Workbench &bench = parts.workbench();
+        return new HandLinePanel(parts.document(), {*bench.input(), *bench.outputView(), *bench.statisticPlot()});
+    }
+
+    QWidget *makeChannels(WindowParts &parts)
+    {
+        auto *panel = new ChannelsPanel(parts.document(), parts.controller());
+        WaterfallView *output = parts.workbench().output();
+        LinkedPictures *pictures = &panel->pictures();
+        QObject::connect(output, &WaterfallView::orientationChanged, pictures, &LinkedPictures::setOrientation);
+        QObject::connect(pictures, &LinkedPictures::orientationChanged, output, &WaterfallView::setOrientation);
+        QObject::connect(output, &WaterfallView::colourMapChanged, pictures, &LinkedPictures::setColourMap);
+        QObject::connect(pictures, &LinkedPictures::colourMapChanged, output, &WaterfallView::setColourMap);
+        return panel;
+    }
+
+    QWidget *makeCompare(WindowParts &parts)
+    {
+        auto *panel = new ComparePanel(parts.document(), parts.controller(), parts.comparer());
+        QObject::connect(panel, &ComparePanel::eventActivated, panel, [&parts](int id) { parts.goTo(id); });
+        QObject::connect(parts.workbench().output(), &WaterfallView::orientationChanged, panel->picture(),
+                         &WaterfallView::setOrientation);
+        return panel;
+    }
+
+    QWidget *makeSweep(WindowParts &parts)
+    {
+        auto *panel = new SweepPanel(parts.document(), parts.experiments());
+        QObject::connect(panel, &SweepPanel::valueChosen, &parts.controller(), &AnalysisController::editNumber);
+        return panel;
+    }
+
+    QWidget *makeSurvey(WindowParts &parts)
+    {
+        auto *panel = new SurveyPanel(parts.document(), parts.controller());
+        QObject::connect(panel, &SurveyPanel::eventReached, panel, [&parts, panel](int id) {
+            parts.show(*panel); // the first recording replaces it with the panels of a recording
+            parts.goTo(id);
+        });
+        QObject::connect(panel, &SurveyPanel::opened, panel, [&parts, panel] {
+            parts.showAlone(*panel, tr("Survey — Faintline"), tr("Double-click an event to open its recording there."));
+        });
+        QObject::connect(panel, &SurveyPanel::openRequested, panel,
+                         [&parts](const QString &path, const OpenOptions &options,
+                                  const AnalysisController::Adjust &adjust) { parts.open(path, options, adjust); });
+        return panel;
+    }
+
+    QWidget *makeExperiments(WindowParts &parts)
+    {
+        auto *panel = new ExperimentsPanel(parts.experiments());
+        QObject::connect(panel, &ExperimentsPanel::showRequested, panel,
+                         [&parts](int id) { parts.showExperiment(id); });
+        QObject::connect(&parts.experiments(), &Experiments::changed, panel, [&parts](int id) {
+            // Show a finished reproduction; curves update in place.
+            if (const Experiments::Entry *entry = parts.experiments().entry(id);
+                entry->state == Experiments::State::Done && entry->reproduction)
+                parts.showExperiment(id);
+        });
+        return panel;
+    }
+
+    QWidget *makeTargets(WindowParts &parts)
+    {
+        PingBench &bench = parts.pingBench();
+        auto *panel = new TargetsPanel(parts.document(), {bench.input(), bench.output()}, bench.viewports());
+        QObject::connect(panel, &TargetsPanel::newSceneRequested, panel, [&parts] { parts.newScene(); });
+        QObject::connect(panel, &TargetsPanel::activeChanged, &bench, &PingBench::setMapsFirst);
+        return panel;
+    }
+
+} // namespace
+
+std::vector<PanelRow> &panelList()
+{
+    using Place = PanelRow::Place;
+    using Of = PanelRow::Of;
+    using Parts = WindowParts &;
+    // The threshold is above the events so that both are visible while dragging.
+    static std::vector<PanelRow> list{
+        {"pipelineDock", tr("All settings"), Place::Left,
+         [](Parts parts) { return new PipelinePanel(parts.document(), parts.controller(), parts.ownPresets()); }},
+        {"settingsDock", tr("Settings"), Place::Left, makeSettings, "", Of::Recording, {}, true},
+        {"thresholdDock", tr("Threshold"), Place::RightTop, makeThreshold},
+        {"eventsDock", tr("Events"), Place::RightBottom, [](Parts parts) { return &parts.eventTable(); }, "events"},
+        {"whyDock", tr("Why"), Place::RightBottom, makeWhy, "why"},
+        {"noiseDock", tr("Noise"), Place::RightBottom,
+         [](Parts parts) { return new InfoPanel(parts.document(), parts.controller(), parts.recordingCheck()); },
+         "noise"},
+        {"noiseFitDock", tr("Noise fit"), Place::RightBottom,
+         [](Parts parts) { return new NoiseFitPanel(parts.document()); }, "noisefit"},
+        {"statesDock", tr("States"), Place::RightBottom, makeStates, "slice"},
+        {"handDock", tr("By hand"), Place::RightBottom, makeHandLine, "hand", Of::Recording, {}, true},
+        {"evaluateDock", tr("Pd and ROC"), Place::Bottom,
+         [](Parts parts) { return new EvaluatePanel(parts.document(), parts.experiments()); }, "pd"},
+        {"spectrumDock", tr("Spectrum"), Place::Bottom, [](Parts parts) { return new SpectrumPanel(parts.document()); },
+         "spectrum"},
+        {"channelsDock", tr("Channels"), Place::Bottom, makeChannels, "channels"},
+        {"dopplerDock", tr("Doppler fit"), Place::Bottom,
+         [](Parts parts) {
+             return new DopplerPanel(parts.document(), parts.eventTable(), parts.reviews().files().provenance());
+         },
+         "doppler"},
+        {"compareDock", tr("Compare"), Place::Bottom, makeCompare, "compare"},
+        {"sweepDock", tr("Sweep"), Place::Bottom, makeSweep, "sweep"},
+        {"surveyDock", tr("Survey"), Place::Bottom, makeSurvey, "survey", Of::Survey},
+        {"experimentsDock", tr("Experiments"), Place::Bottom, makeExperiments},
+        {"reproductionDock", tr("Reproduction"), Place::Bottom, [](Parts) { return new ReproductionPanel; }},
+        {"sequentialDock", tr("Sequential test"), Place::Bottom,
+         [](Parts parts) { return new SequentialPanel(parts.document(), parts.sequentialTests()); }, "sequential",
+         Of::Scans},
+        {"latencyDock", tr("Latency"), Place::Bottom, [](Parts parts) { return new LatencyPanel(parts.document()); },
+         "latency", Of::Pings},
+        {"targetsDock", tr("Targets"), Place::Bottom, makeTargets, "targets", Of::Pings},
+    };
+    return list;
+}
+
+} // namespace faintline
