@@ -1,9 +1,9 @@
 #include "app/lessons/LessonGuide.h"
 
-#include "app/base/MessageBar.h"
 #include "app/base/filePath.h"
 #include "app/base/screenSizes.h"
 #include "app/base/writeAndReport.h"
+#include "app/control/OutputLayers.h"
 #include "app/document/scanScenario.h"
 #include "app/lessons/LessonPanel.h"
 #include "app/lessons/PointerFrame.h"
@@ -90,6 +90,14 @@ LessonGuide::LessonGuide(QMainWindow &window, WindowParts &parts)
         }
     });
     connect(m_panel, &LessonPanel::leaveRequested, this, &LessonGuide::leave);
+    connect(this, &LessonGuide::runningChanged, this,
+            [layers = &parts.workbench().layers(), before = std::optional<OutputLayer>()](bool isRunning) mutable {
+                if (isRunning && !before)
+                    before = layers->chosen();
+                layers->setLayer(isRunning ? OutputLayer::Statistic : before.value_or(layers->chosen()));
+                if (!isRunning)
+                    before.reset();
+            }); // lessons speak of the statistic
     window.installEventFilter(this);
 }
 
@@ -225,8 +233,7 @@ void LessonGuide::setScans(const QString &path)
     try {
         m_parts.openScansOf(path);
     } catch (const Error &error) {
-        m_parts.messages().showMessage(MessageBar::Kind::Error, QString::fromStdString(error.where()),
-                                       QString::fromStdString(error.why()));
+        m_parts.showError(error);
         leave();
     }
 }
@@ -238,7 +245,7 @@ void LessonGuide::showExperiment()
         return;
     int &id = m_experiments[now().experiment];
     if (m_parts.experiments().entry(id))
-        m_parts.showExperiment(id);
+        m_parts.panel<ExperimentsPanel>().show(id);
     else
         id = m_parts.panel<ExperimentsPanel>().open(now().experiment);
 }

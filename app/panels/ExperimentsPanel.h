@@ -23,6 +23,7 @@ public:
     /// Starts the experiment, also one of the resources, or imports its results; ends with `showRequested` or `failed`.
     /// Returns the experiment's id, 0 if it failed.
     int open(const QString &path);
+    void show(int id) { emit showRequested(id); } ///< its results
     /// Imports the runs of a campaign or the points of a curve; returns the experiment's id. Throws Error.
     int importFile(const QString &path);
     /// Exports a campaign's curve or a reproduction's tables and pictures, depending on the entry. Throws Error.

@@ -70,7 +70,6 @@ public:
     virtual void show(QWidget &panel) = 0;
     /// Gives the whole window to a panel that needs no recording, until one is opened.
     virtual void showAlone(QWidget &panel, const QString &title, const QString &hint) = 0;
-    virtual void showExperiment(int id) = 0;
     virtual void showWelcome() = 0;
     virtual void showWorkbench() = 0;
     virtual void showError(const Error &error) = 0;

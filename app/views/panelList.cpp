@@ -42,6 +42,12 @@ namespace faintline {
 
 namespace {
 
+    template <class P>
+    QWidget *make(WindowParts &parts)
+    {
+        return new P(parts.document());
+    }
+
     /// A dozen settings, and the form of all behind a button.
     QWidget *makeSettings(WindowParts &parts)
     {
@@ -138,16 +144,37 @@ namespace {
         return panel;
     }
 
+    void showExperiment(WindowParts &parts, int id)
+    {
+        const Experiments::Entry *entry = parts.experiments().entry(id);
+        if (!entry)
+            return;
+        if (entry->reproduction) {
+            parts.panel<ReproductionPanel>().show(entry->reproduction);
+            return parts.show(parts.panel<ReproductionPanel>());
+        }
+        if (entry->reproducible)
+            return;
+        auto &sweep = parts.panel<SweepPanel>();
+        auto &curves = parts.panel<EvaluatePanel>();
+        const bool isSweep = entry->campaign && std::holds_alternative<SweepExperiment>(entry->campaign->experiment);
+        isSweep ? sweep.show(id) : curves.show(id);
+        QWidget &shown = isSweep ? static_cast<QWidget &>(sweep) : curves;
+        if (!parts.document().isEmpty())
+            return parts.show(shown);
+        parts.showAlone(shown, tr("%1 — Faintline").arg(entry->name), tr("The curves grow while the experiment runs."));
+    }
+
     QWidget *makeExperiments(WindowParts &parts)
     {
         auto *panel = new ExperimentsPanel(parts.experiments());
         QObject::connect(panel, &ExperimentsPanel::showRequested, panel,
-                         [&parts](int id) { parts.showExperiment(id); });
+                         [&parts](int id) { showExperiment(parts, id); });
         QObject::connect(&parts.experiments(), &Experiments::changed, panel, [&parts](int id) {
             // Show a finished reproduction; curves update in place.
             if (const Experiments::Entry *entry = parts.experiments().entry(id);
                 entry->state == Experiments::State::Done && entry->reproduction)
-                parts.showExperiment(id);
+                showExperiment(parts, id);
         });
         return panel;
     }
@@ -179,14 +206,12 @@ std::vector<PanelRow> &panelList()
         {"noiseDock", tr("Noise"), Place::RightBottom,
          [](Parts parts) { return new InfoPanel(parts.document(), parts.controller(), parts.recordingCheck()); },
          "noise"},
-        {"noiseFitDock", tr("Noise fit"), Place::RightBottom,
-         [](Parts parts) { return new NoiseFitPanel(parts.document()); }, "noisefit"},
+        {"noiseFitDock", tr("Noise fit"), Place::RightBottom, make<NoiseFitPanel>, "noisefit"},
         {"statesDock", tr("States"), Place::RightBottom, makeStates, "slice"},
         {"handDock", tr("By hand"), Place::RightBottom, makeHandLine, "hand", Of::Recording, {}, true},
         {"evaluateDock", tr("Pd and ROC"), Place::Bottom,
          [](Parts parts) { return new EvaluatePanel(parts.document(), parts.experiments()); }, "pd"},
-        {"spectrumDock", tr("Spectrum"), Place::Bottom, [](Parts parts) { return new SpectrumPanel(parts.document()); },
-         "spectrum"},
+        {"spectrumDock", tr("Spectrum"), Place::Bottom, make<SpectrumPanel>, "spectrum"},
         {"channelsDock", tr("Channels"), Place::Bottom, makeChannels, "channels"},
         {"dopplerDock", tr("Doppler fit"), Place::Bottom,
          [](Parts parts) {
@@ -201,8 +226,7 @@ std::vector<PanelRow> &panelList()
         {"sequentialDock", tr("Sequential test"), Place::Bottom,
          [](Parts parts) { return new SequentialPanel(parts.document(), parts.sequentialTests()); }, "sequential",
          Of::Scans},
-        {"latencyDock", tr("Latency"), Place::Bottom, [](Parts parts) { return new LatencyPanel(parts.document()); },
-         "latency", Of::Pings},
+        {"latencyDock", tr("Latency"), Place::Bottom, make<LatencyPanel>, "latency", Of::Pings},
         {"targetsDock", tr("Targets"), Place::Bottom, makeTargets, "targets", Of::Pings},
     };
     return list;

@@ -33,8 +33,10 @@ public:
     void setPlayback(Playback &playback);
 
     void ask(); ///< for the source, then starts
-    void start(LiveRun::OpenSource source, const QString &folder, const std::optional<AnalysisSettings> &settings,
-               const RotationSettings &rotation);
+    /// Records into a folder, in files of limited length, with these settings or those of the open document, which is
+    /// closed. At the end the recording is opened.
+    void start(LiveRun::OpenSource source, const QString &folder, const std::optional<AnalysisSettings> &settings = {},
+               const RotationSettings &rotation = {});
     /// Stops; at the end the window is closed.
     void leave();
     bool isLeaving() const { return m_isLeaving; }

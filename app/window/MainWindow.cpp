@@ -1,57 +1,67 @@
 #include "app/window/MainWindow.h"
 
+#include "app/base/GestureWatcher.h"
 #include "app/base/MessageBar.h"
 #include "app/base/distinctLabels.h"
 #include "app/base/filePath.h"
 #include "app/base/screenSizes.h"
+#include "app/control/AdviceMessages.h"
+#include "app/control/BoxAnalysis.h"
+#include "app/control/EventFiles.h"
+#include "app/control/EventReviews.h"
 #include "app/control/OutputLayers.h"
+#include "app/control/PlainInput.h"
 #include "app/control/Playback.h"
 #include "app/control/ShownEvents.h"
+#include "app/control/ThresholdCurves.h"
 #include "app/control/hint.h"
+#include "app/control/thresholdWords.h"
+#include "app/document/OwnPresets.h"
 #include "app/document/Recovery.h"
 #include "app/document/SessionSaver.h"
-#include "app/help/EquationSheet.h"
-#include "app/help/KeysOverlay.h"
 #include "app/lessons/Lesson.h"
 #include "app/lessons/LessonGuide.h"
 #include "app/lessons/LessonList.h"
 #include "app/panels/EvaluatePanel.h"
-#include "app/panels/ExperimentsPanel.h"
-#include "app/panels/PipelinePanel.h"
-#include "app/panels/ReproductionPanel.h"
 #include "app/panels/SequentialPanel.h"
-#include "app/panels/SweepPanel.h"
+#include "app/panels/SurveyPanel.h"
+#include "app/panels/ThresholdPanel.h"
+#include "app/panels/chosenEvents.h"
 #include "app/views/ChartMenus.h"
 #include "app/views/ReportWriter.h"
 #include "app/views/WindowViews.h"
+#include "app/views/panelList.h"
 #include "app/welcome/WelcomePage.h"
-#include "app/window/CommandPalette.h"
+#include "app/window/ActivityBar.h"
 #include "app/window/Commands.h"
 #include "app/window/Listening.h"
 #include "app/window/Opener.h"
 #include "app/window/Panels.h"
-#include "app/window/ToolBar.h"
 #include "app/window/TrialViewer.h"
-#include "app/window/currentView.h"
-#include "app/window/settingCommands.h"
+#include "app/workspace/LiveBar.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
-#include "widgets/base/icon.h"
+#include "app/workspace/bottomBars.h"
+#include "widgets/base/ReadOut.h"
 #include "widgets/base/labelText.h"
-#include "widgets/events/EventCard.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"
 #include "widgets/plot/WalkPlot.h"
+#include "widgets/waterfall/MarkLegend.h"
+#include "widgets/waterfall/OverviewStrip.h"
 
 #include <QCloseEvent>
 #include <QDockWidget>
-#include <QFileDialog>
+#include <QGridLayout>
 #include <QLabel>
-#include <QMenu>
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QStackedWidget>
+#include <QStatusBar>
 #include <QToolBar>
+#include <QVBoxLayout>
+
+#include <algorithm>
 
 namespace faintline {
 
@@ -69,7 +79,7 @@ namespace {
 } // namespace
 
 MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recoveryFolder, QWidget *parent)
-    : QMainWindow(parent), m_memory(std::move(memory)), m_recoveryFolder(recoveryFolder)
+    : QMainWindow(parent), m_memory(std::move(memory))
 {
     setObjectName(QStringLiteral("MainWindow"));
     setAnimated(false);
@@ -80,29 +90,23 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recover
     buildBottom();
     buildStatusBar();
     m_lessons = new LessonGuide(*this, *this);
-    m_opener = new Opener(*this, *m_lessons, m_memory, *this);
+    m_opener = new Opener(*this, *m_lessons, *m_lessonList, m_memory, *this);
     m_saver = new SessionSaver(
         m_document, [this] { return viewState(); }, this);
     m_recovery = new Recovery(
-        m_document, [this] { return viewState(); }, m_recoveryFolder, this);
+        m_document, [this] { return viewState(); }, recoveryFolder, this);
     m_report = new ReportWriter(m_document, *m_views, this);
     m_trials = std::make_unique<TrialViewer>(m_experiments, this);
     m_chartMenus = new ChartMenus(*this, this);
     m_commands = makeCommands(*this);
-    nameWhatHolds();
-    buildToolBar();
-    connectCommands();
     connectDocument();
     connectController();
     connectLessons();
     connectParts();
-    m_keys = new KeysOverlay(this);
-    m_equation = new EquationSheet(this);
-    m_palette = new CommandPalette(this);
-    m_settingsMenu = new QMenu(tr("Setting"), this);
     resize(1440, 900);
     m_panels->rememberDefault();
-    restoreLayout();
+    m_commands->action("regulation")->setChecked(m_memory.isRegulationShown());
+    m_memory.restoreLayout(*this, *this);
     showWelcome();
     showHint();
     showTitle();
@@ -122,88 +126,181 @@ MainWindow::~MainWindow()
     m_trials.reset();
 }
 
-/// Names focusable container widgets after the panel that contains them.
-void MainWindow::nameWhatHolds()
+void MainWindow::buildCentre()
 {
-    for (QWidget *widget : findChildren<QWidget *>()) {
-        const bool isHolder = widget->inherits("QScrollArea") || widget->inherits("QTabWidget");
-        if (!isHolder || !widget->accessibleName().isEmpty())
-            continue;
-        QWidget *panel = widget->parentWidget();
-        while (panel && panel->windowTitle().isEmpty() && panel != this)
-            panel = panel->parentWidget();
-        widget->setAccessibleName(panel && panel != this ? panel->windowTitle() : tr("Welcome"));
-    }
+    m_messages = new MessageBar;
+    m_lessonList = new LessonList;
+    m_welcome = new WelcomePage(m_lessonList);
+    m_workbench = new Workbench(m_document);
+    m_pages = new QStackedWidget;
+    m_pages->addWidget(m_welcome);
+    m_pages->addWidget(m_workbench);
+    m_pings = new PingBench(m_document, m_workbench->layers());
+    m_pages->addWidget(m_pings);
+    // Hidden parts must not enforce a minimum size.
+    const auto measureCurrent = [this](int current) {
+        for (int i = 0; i < m_pages->count(); ++i) {
+            const auto policy = i == current ? QSizePolicy::Expanding : QSizePolicy::Ignored;
+            m_pages->widget(i)->setSizePolicy(policy, policy);
+        }
+    };
+    connect(m_pages, &QStackedWidget::currentChanged, this, measureCurrent);
+    measureCurrent(m_pages->currentIndex());
+
+    auto *centre = new QWidget;
+    auto *layout = new QVBoxLayout(centre);
+    layout->setSizeConstraint(QLayout::SetMaximumSize); // while the pages are hidden, a panel uses their space
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    m_listening = new Listening(*this, *this);
+    layout->addWidget(&m_listening->bar());
+    auto *pages = new QGridLayout; // a message lies over them, which keeps the pictures where they are
+    pages->addWidget(m_pages, 0, 0);
+    pages->addWidget(m_messages, 0, 0, Qt::AlignBottom);
+    layout->addLayout(pages, 1);
+    m_messages->raise();
+    setCentralWidget(centre);
 }
 
-void MainWindow::buildToolBar()
+void MainWindow::buildPanels()
 {
-    auto *bar = new ToolBar(tr("Tools"));
-    addToolBar(bar);
-    bar->setObjectName(QStringLiteral("toolBar"));
-    const auto add = [this, bar](std::initializer_list<const char *> names, bool keepsText) {
-        for (const char *name : names)
-            bar->addAction(m_commands->action(name), QLatin1String(name), keepsText);
-    };
-    add({"open"}, true);
-    QAction *examples = m_commands->menu(tr("&File/Exa&mples"))->menuAction();
-    examples->setToolTip(tr("Open a recording or a simulated scene that comes with the program"));
-    bar->addAction(examples, QStringLiteral("scenario"), true);
-    bar->addSeparator();
-    add({"run", "stop"}, true);
-    bar->addSeparator();
-    add({"orientation", "colours", "show-all"}, false);
-    bar->addSeparator();
-    add({"step-back", "play", "step-forward"}, false);
-    bar->addSeparator();
-    add({"next-event"}, false);
+    m_ownPresets = new OwnPresets(m_memory.presetFolder(), this);
+    m_threshold = new ExceedancePlot;
+    m_threshold->setObjectName(QStringLiteral("threshold"));
+    m_threshold->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+    new ThresholdCurves(m_document, m_controller, *m_threshold, this);
+    m_events = new EventTable;
+    m_reviews = new EventReviews(
+        m_document, *m_events,
+        {m_workbench->input(), m_workbench->output(), m_pings->alongHistory(), m_pings->acrossHistory()}, this);
+    m_reviews->setClassNames(m_memory.classNames());
+    m_reviews->addMaps({m_pings->input(), m_pings->output()});
+    m_shownEvents = new ShownEvents(m_document, *m_events, this);
+    m_shownEvents->setSnrBandwidth(m_memory.snrBandwidthHz());
+    m_boxAnalysis = new BoxAnalysis(m_document, m_controller, {m_workbench->input(), m_workbench->output()}, this);
+    m_playback = new Playback(
+        m_document,
+        [this]() -> std::optional<Event> {
+            const std::vector<Event> events = chosenEvents(m_document, *m_events);
+            return events.empty() ? std::nullopt : std::optional(events.front());
+        },
+        this);
+    m_listening->setPlayback(*m_playback);
+    for (const PanelRow &row : panelList())
+        m_docked.emplace_back(row.dock, row.make(*this));
+    for (std::size_t i = 0; i < m_docked.size(); ++i)
+        m_panels->add(panelList()[i], *m_docked[i].second);
 }
 
-/// What is on or off, and shown or changed in other places as well.
-void MainWindow::connectCommands()
+void MainWindow::buildBottom()
 {
-    const auto toggle = [this](const char *name, auto set) {
-        QAction *action = m_commands->action(name);
-        action->setCheckable(true);
-        connect(action, &QAction::toggled, this, set);
-        return action;
+    const auto addBar = [this](const QString &name, const QString &title, QWidget *widget) {
+        auto *bar = new QToolBar(title);
+        bar->setObjectName(name);
+        bar->setMovable(false);
+        bar->setFloatable(false);
+        bar->addWidget(widget);
+        widget->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+        addToolBar(Qt::BottomToolBarArea, bar);
+        m_bottomBars.push_back(bar);
     };
-    WaterfallView *input = m_workbench->input(), *output = m_workbench->output();
-    QAction *harmonics = toggle("harmonics", [input, output](bool isOn) {
-        input->setHarmonics(isOn);
-        output->setHarmonics(isOn);
-    });
-    connect(input, &WaterfallView::harmonicsChanged, harmonics, &QAction::setChecked);
-    connect(output, &WaterfallView::harmonicsChanged, harmonics, &QAction::setChecked);
-    QAction *sidebands = toggle("sidebands", [output](bool isOn) { output->setSidebands(isOn); });
-    connect(output, &WaterfallView::sidebandsChanged, sidebands,
-            [sidebands](double hz) { sidebands->setChecked(hz > 0.0); });
-    toggle("regulation", [this](bool isOn) { m_workbench->setRegulationWanted(isOn); })->setChecked(true);
-    QAction *stop = m_commands->action("stop");
-    stop->setEnabled(false);
-    m_events->card().setActions({m_commands->action("why"), m_commands->action("hear"), harmonics,
-                                 m_commands->action("straighten"), m_commands->action("doppler")});
+    auto *overview = new OverviewStrip;
+    connectOverview(*overview, m_document, *m_workbench);
+    m_readOut = new ReadOut;
+    connectReadOut(*m_readOut, m_document, *m_workbench);
+    addBar(QStringLiteral("readOutBar"), tr("Read-out"), m_readOut); // the first one is the lowest
+    addToolBarBreak(Qt::BottomToolBarArea);
+    addBar(QStringLiteral("overviewBar"), tr("Overview"), overview);
+}
 
-    QAction *play = toggle("play", &MainWindow::setPlaying);
-    connect(play, &QAction::toggled, play,
-            [play](bool isOn) { play->setIcon(icon(isOn ? QStringLiteral("pause") : QStringLiteral("play"))); });
-    connect(m_playback, &Playback::playingChanged, play, &QAction::setChecked);
-    // Space also presses the focused button, so it plays only in the pictures.
-    play->setShortcutContext(Qt::WidgetWithChildrenShortcut);
-    removeAction(play);
-    for (Bench *one : std::initializer_list<Bench *>{m_workbench, m_pings}) {
-        connect(one, &Bench::playingChanged, play, &QAction::setChecked);
-        one->addAction(play);
-    }
+void MainWindow::buildStatusBar()
+{
+    m_hint = new QLabel;
+    m_hint->setTextFormat(Qt::PlainText);
+    m_hint->setContentsMargins(8, 0, 0, 0);
+    m_hint->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    m_activity = new ActivityBar;
+    statusBar()->setSizeGripEnabled(false);
+    statusBar()->addWidget(m_hint, 1);
+    m_legend = new MarkLegend;
+    m_legend->hide();
+    statusBar()->addPermanentWidget(m_activity);
+    statusBar()->addPermanentWidget(m_legend);
+}
 
-    QAction *presenting = toggle("present", [this, stop](bool isPresenting) {
-        stop->setEnabled(isPresenting || m_controller.isBusy());
-        m_panels->setPresenting(isPresenting);
-        Theme::setPlotScale(isPresenting ? 1.5 : 1.0);
-        m_lessons->present(isPresenting);
+void MainWindow::connectDocument()
+{
+    auto *gestures = new GestureWatcher(this);
+    connect(gestures, &GestureWatcher::began, &m_document, &Document::beginGesture);
+    connect(gestures, &GestureWatcher::ended, &m_document, &Document::endGesture);
+    connect(&m_document, &Document::opened, this, [this] {
+        if (!m_listening->isRunning()) // messages of the live run remain valid
+            m_messages->dismiss();
+        for (Bench *one : std::initializer_list<Bench *>{m_workbench, m_pings}) {
+            one->setEmptySentence(tr("Estimating the noise of %1 …").arg(m_document.sourceName()));
+            one->setPlaying(false);
+        }
+        if (m_pages->currentWidget() != m_welcome)
+            showWorkbench();
+        const QString path = m_document.sessionPath().isEmpty() ? m_document.sourcePath() : m_document.sessionPath();
+        if (!path.isEmpty() && !path.startsWith(QLatin1Char(':')))
+            m_memory.addRecent(path);
+        m_opener->offerIq();
     });
-    connect(&m_controller, &AnalysisController::busyChanged, stop,
-            [stop, presenting](bool isBusy) { stop->setEnabled(isBusy || presenting->isChecked()); });
+    for (const auto changed :
+         {&Document::opened, &Document::settingsChanged, &Document::analysisChanged, &Document::provisionalChanged,
+          &Document::livePlanChanged, &Document::shownThresholdChanged, &Document::shownEventsChanged})
+        connect(&m_document, changed, this, &MainWindow::showHint);
+    connect(&m_document, &Document::picturesGrew, this, &MainWindow::showWorkbench);
+    connect(&m_document, &Document::analysisChanged, this, &MainWindow::showWorkbench);
+    connect(&m_document, &Document::sessionChanged, this, &MainWindow::showTitle);
+    connect(&m_document, &Document::settingsChanged, m_messages, &MessageBar::dismiss);
+}
+
+void MainWindow::connectController()
+{
+    connect(&m_controller, &AnalysisController::busyChanged, this, [this](bool isBusy) {
+        if (!isBusy && !m_document.isEmpty() && !m_document.analysis())
+            m_workbench->output()->setEmptySentence(tr("Stopped before the detector finished."));
+        showHint();
+    });
+    connect(&m_controller, &AnalysisController::failed, this, &MainWindow::showFailure);
+    connect(&m_controller, &AnalysisController::warned, this, [this](const QString &where, const QString &why) {
+        m_messages->showMessage(MessageBar::Kind::Notice, where, why);
+    });
+    connect(&m_controller, &AnalysisController::refined, this,
+            [this](double firstEstimate) { m_hint->setText(refinedSentence(*m_document.analysis(), firstEstimate)); });
+    new AdviceMessages(m_document, m_controller, m_check, *m_messages, this);
+    connect(&m_controller, &AnalysisController::viewRestored, this, [this](const ViewState &view) { restore(view); });
+    connect(m_playback, &Playback::failed, this, [this](const Error &error) {
+        const QString why = QString::fromStdString(error.why());
+        m_messages->showMessage(MessageBar::Kind::Notice, QString::fromStdString(error.where()),
+                                m_document.takesAnalyses() ? tr("%1; the cursor moves without sound").arg(why) : why);
+    });
+    connect(m_playback, &Playback::soundless, this, [this] { bench().setPlaying(true); });
+    connect(m_saver, &SessionSaver::saved, this, [this](const QString &path) {
+        m_memory.addRecent(path);
+        m_hint->setText(tr("Saved as %1").arg(labelText(pathBytes(absolutePath(path)), longestPath)));
+        emit saved(path);
+    });
+}
+
+void MainWindow::connectLessons()
+{
+    connect(m_lessons, &LessonGuide::runningChanged, this, [this](bool isRunning) {
+        if (isRunning || !m_pages->isHidden() || m_document.isEmpty())
+            return;
+        showWorkbench(); // put aside by the lesson
+        showTitle();
+        showHint();
+    });
+    connect(m_lessons, &LessonGuide::runningChanged, this, [this](bool isRunning) {
+        const auto isOfResets = [](const LessonStep &step) { return step.point == QLatin1String("regulation"); };
+        m_workbench->setRegulationWanted((isRunning && std::ranges::any_of(m_lessons->lesson().steps, isOfResets))
+                                         || m_commands->action("regulation")->isChecked());
+        if (isRunning)
+            m_commands->action("present")->setEnabled(true); // also of scans, which have no pictures of their own
+    });
     connect(m_lessons, &LessonGuide::finished, this, [this](const QString &path) {
         m_memory.addDoneLesson(path);
         m_lessonList->setDone(m_memory.doneLessons());
@@ -212,10 +309,58 @@ void MainWindow::connectCommands()
     m_lessonList->setDone(m_memory.doneLessons());
 }
 
+void MainWindow::connectParts()
+{
+    for (Bench *one : std::initializer_list<Bench *>{m_workbench, m_pings}) {
+        connect(one, &Bench::eventActivated, this, &MainWindow::goTo);
+        connect(one, &Bench::thresholdStepRequested, &m_controller, &AnalysisController::stepThreshold);
+    }
+    connect(m_events, &EventTable::eventActivated, this, &MainWindow::goTo);
+    connect(m_reviews, &EventReviews::classNamesChanged, this,
+            [this](const QStringList &names) { m_memory.setClassNames(names); });
+    connect(&m_reviews->files(), &EventFiles::told, this, [this](const QString &where, const QString &what) {
+        m_messages->showMessage(MessageBar::Kind::Notice, where, what);
+    });
+    connect(&panel<EvaluatePanel>(), &EvaluatePanel::trialRequested, m_trials.get(), &TrialViewer::open);
+    connect(m_listening, &Listening::told, m_hint, &QLabel::setText);
+    for (JobRunner *runner :
+         {&m_controller.runner(), &m_report->runner(), &panel<SurveyPanel>().runner(), &m_trials->runner()})
+        m_activity->follow(*runner);
+
+    const auto showErrors = [this]<class... Part>(Part *...parts) {
+        (connect(parts, &Part::failed, this, &MainWindow::showError), ...);
+    };
+    const auto showFiles = [this]<class... Part>(Part *...parts) {
+        (connect(parts, &Part::written, this, &MainWindow::showWritten), ...);
+    };
+    showErrors(&m_reviews->files(), m_chartMenus, m_views, m_report, m_saver, m_lessons, m_trials.get(),
+               &m_workbench->layers(), &m_workbench->plainInput());
+    showFiles(&m_reviews->files(), m_chartMenus, m_views, m_report, m_lessons);
+    for (const auto &[dock, docked] : m_docked)
+        if (auto *own = qobject_cast<Panel *>(docked)) {
+            showErrors(own);
+            showFiles(own);
+        }
+
+    auto *sequential = static_cast<QDockWidget *>(panel<SequentialPanel>().parentWidget());
+    connect(sequential->toggleViewAction(), &QAction::toggled, this, [this, sequential] {
+        if (sequential->isHidden() && m_pages->isHidden() && !m_panels->isRearranging()) // it was the only panel
+            showWelcome();
+    });
+    const auto seen =
+        std::make_shared<std::array<bool, 2>>(); // forms that have the settings of the threshold's panel, too
+    for (const std::size_t form : {std::size_t(0), std::size_t(1)})
+        connect(findChild<QDockWidget *>(QLatin1String(form == 0 ? "pipelineDock" : "settingsDock")),
+                &QDockWidget::visibilityChanged, this, [this, seen, form](bool isSeen) {
+                    (*seen)[form] = isSeen;
+                    panel<ThresholdPanel>().setMainSettingsWanted(*seen == std::array{false, false});
+                });
+}
+
 /// The document stays open.
 void MainWindow::putBenchAside()
 {
-    saveLayout();
+    keepLayout();
     m_pages->show();
     m_pages->setCurrentWidget(m_welcome);
     m_panels->hide();
@@ -242,7 +387,7 @@ void MainWindow::showWorkbench()
         return;
     m_panels->setLeastPictures(bench().hasReadOut() ? Panels::leastWithBars : Panels::leastAlone);
     m_pages->setCurrentWidget(&bench());
-    if (const QByteArray panels = m_memory.layout().panels; panels.isEmpty() || !restoreState(panels))
+    if (const QByteArray panels = m_memory.panels(); panels.isEmpty() || !restoreState(panels))
         takeLayout(m_memory.isKept() ? Panels::analyse() : Panels::researcher());
     showBars();
     m_legend->show();
@@ -314,7 +459,7 @@ void MainWindow::closeEvent(QCloseEvent *event)
     if (!m_saver->mayLose(tr("closing"), [this] { close(); }))
         return event->ignore();
     m_lessons->leave();
-    saveLayout();
+    keepLayout();
     m_controller.stop();
     event->accept();
 }
@@ -330,87 +475,19 @@ bool MainWindow::focusNextPrevChild(bool next)
     return false;
 }
 
+void MainWindow::keepLayout()
+{
+    QAction *presenting = m_commands->action("present");
+    if (m_pages->currentWidget() == m_welcome || presenting->isChecked())
+        return;
+    m_panels->restoreMaximised();
+    m_memory.keepLayout(*this, *this, m_commands->action("regulation")->isChecked());
+}
+
 void MainWindow::takeLayout(const QString &name)
 {
     m_panels->takeLayout(name);
     m_commands->action("regulation")->setChecked(name != Panels::analyse());
-}
-
-void MainWindow::saveLayout()
-{
-    if (m_pages->currentWidget() == m_welcome || m_commands->action("present")->isChecked())
-        return;
-    m_panels->restoreMaximised();
-    const ViewState view = m_workbench->viewState();
-    WindowMemory::Layout layout = m_memory.layout(); // keeps the layout of the hidden bench
-    (&bench() == m_pings ? layout.pingSplitters : layout.splitters) = bench().saveSplitters();
-    layout.geometry = saveGeometry();
-    layout.panels = saveState();
-    layout.colourMap = view.colourMap;
-    layout.orientation = view.orientation;
-    layout.isLogarithmic = view.isLogarithmic;
-    layout.isRadioAxis = view.isRadioAxis;
-    const std::string_view layer = outputLayerNames[std::size_t(m_workbench->layers().chosen())];
-    layout.layer = QString::fromLatin1(layer.data(), qsizetype(layer.size()));
-    layout.isRegulationShown = m_commands->action("regulation")->isChecked();
-    m_memory.setLayout(layout);
-}
-
-void MainWindow::restoreLayout()
-{
-    const WindowMemory::Layout layout = m_memory.layout();
-    restoreGeometry(layout.geometry);
-    if (!layout.splitters.isEmpty())
-        m_workbench->restoreSplitters(layout.splitters);
-    if (!layout.pingSplitters.isEmpty())
-        m_pings->restoreSplitters(layout.pingSplitters);
-    m_workbench->restore({{}, {}, layout.orientation, layout.colourMap, layout.isLogarithmic, layout.isRadioAxis});
-    m_commands->action("regulation")->setChecked(layout.isRegulationShown);
-    const auto layer = std::ranges::find(outputLayerNames, layout.layer.toStdString());
-    if (layer != outputLayerNames.end())
-        m_workbench->layers().setLayer(OutputLayer(layer - outputLayerNames.begin()));
-}
-
-void MainWindow::setSnrBandwidth(double hz)
-{
-    m_memory.setSnrBandwidthHz(hz);
-    m_shownEvents->setSnrBandwidth(hz);
-}
-
-void MainWindow::exportReport()
-{
-    const QString path = QFileDialog::getSaveFileName(
-        this, tr("Export report"), nameBeside(m_document.sourcePath(), QStringLiteral(".html")), tr("Report (*.html)"));
-    if (!path.isEmpty())
-        m_report->write(path);
-}
-
-void MainWindow::reproduce(const Reproducible &reproducible, bool quick)
-{
-    ReproduceOptions options;
-    options.quick = quick;
-    showWorkbench();
-    show(panel<ExperimentsPanel>());
-    m_experiments.start(reproducible, options);
-}
-
-void MainWindow::showExperiment(int id)
-{
-    const Experiments::Entry *entry = m_experiments.entry(id);
-    if (!entry)
-        return;
-    if (entry->reproduction) {
-        panel<ReproductionPanel>().show(entry->reproduction);
-        return show(panel<ReproductionPanel>());
-    }
-    if (entry->reproducible)
-        return;
-    const bool isSweep = entry->campaign && std::holds_alternative<SweepExperiment>(entry->campaign->experiment);
-    isSweep ? panel<SweepPanel>().show(id) : panel<EvaluatePanel>().show(id);
-    QWidget &shown = isSweep ? static_cast<QWidget &>(panel<SweepPanel>()) : panel<EvaluatePanel>();
-    if (!m_document.isEmpty())
-        return show(shown);
-    showAlone(shown, tr("%1 — Faintline").arg(entry->name), tr("The curves grow while the experiment runs."));
 }
 
 void MainWindow::show(QWidget &panel)
@@ -467,27 +544,6 @@ void MainWindow::newScene()
     m_opener->newScene();
 }
 
-void MainWindow::offerRecovery()
-{
-    m_opener->offerRecovery(m_recoveryFolder);
-}
-
-void MainWindow::listenTo(LiveRun::OpenSource source, const QString &folder,
-                          const std::optional<AnalysisSettings> &settings, const RotationSettings &rotation)
-{
-    m_listening->start(std::move(source), folder, settings, rotation);
-}
-
-LiveRun &MainWindow::live()
-{
-    return m_listening->run();
-}
-
-LiveBar &MainWindow::liveBar()
-{
-    return m_listening->bar();
-}
-
 bool MainWindow::mayLeave(const QString &what, const std::function<void()> &next)
 {
     return m_listening->mayLeave(what) && m_saver->mayLose(what, next);
@@ -515,47 +571,6 @@ void MainWindow::setPlaying(bool isPlaying)
             return;
     }
     bench().setPlaying(isPlaying);
-}
-
-void MainWindow::setTheme(Theme::Kind kind)
-{
-    Theme::apply(kind);
-    m_memory.setTheme(kind);
-}
-
-void MainWindow::showEquation()
-{
-    const QString name = currentView(*this, *this);
-    const bool isOfTracks =
-        m_workbench->layers().layer() == OutputLayer::Presence && !m_workbench->layers().isOverlay();
-    const QString detector = isOfTracks
-                                 ? QStringLiteral("presence")
-                                 : QString::fromLatin1(detectorNames[m_document.settings().detector.index()].data());
-    // If the first view is a map, input and output are maps, too.
-    const bool isMap = bench().firstViewName() == QLatin1String("map")
-                       && (name == QLatin1String("input") || name == QLatin1String("output"));
-    m_equation->toggle(equationOf(isMap ? QStringLiteral("map") : name, detector), m_lessons->widgetNamed(name));
-}
-
-void MainWindow::showPalette()
-{
-    m_commands->refresh();
-    m_settingsMenu->clear();
-    QList<QAction *> commands = menuBar()->actions();
-    if (m_pages->currentWidget() != m_welcome) {
-        listSettings(*m_settingsMenu, *panel<PipelinePanel>().form(), [this] { show(panel<PipelinePanel>()); });
-        commands << m_settingsMenu->menuAction();
-    }
-    m_palette->open(commands);
-}
-
-void MainWindow::about()
-{
-    QMessageBox::about(this, tr("About Faintline"),
-                       tr("<b>Faintline %1</b><p>Track-before-detect for faint lines that drift and wander.</p>"
-                          "<p>Free software under the GNU General Public License, version 3 or later.</p>"
-                          "<p>Based in part on the work of the Qwt project (http://qwt.sf.net).</p>")
-                           .arg(QStringLiteral(FAINTLINE_VERSION)));
 }
 
 } // namespace faintline

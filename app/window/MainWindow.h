@@ -1,16 +1,13 @@
 #pragma once
 
-#include "app/control/LiveRun.h"
 #include "app/views/WindowParts.h"
 #include "app/window/WindowMemory.h"
-#include "widgets/base/Theme.h"
 
 #include <QMainWindow>
 
 #include <memory>
 
 class QLabel;
-class QMenu;
 class QStackedWidget;
 class QToolBar;
 
@@ -19,14 +16,10 @@ namespace faintline {
 class ActivityBar;
 class BoxAnalysis;
 class ChartMenus;
-class CommandPalette;
 class Commands;
-class EquationSheet;
-class KeysOverlay;
 class LessonGuide;
 class LessonList;
 class Listening;
-class LiveBar;
 class Opener;
 class Panels;
 class Playback;
@@ -51,7 +44,6 @@ public:
     void show(QWidget &panel) override;
     void showView(const QString &name); ///< brings its panel to the front
     void showAlone(QWidget &panel, const QString &title, const QString &hint) override;
-    void showExperiment(int id) override;
     void showWelcome() override;
     void showWorkbench() override;
     void showError(const Error &error) override;
@@ -64,20 +56,14 @@ public:
                  const AnalysisController::Adjust &adjust = {}) override;
     void openScans(const ScanTest &test) override;
     void newScene() override;
-    /// Offers to restore unsaved work left by a crash.
-    void offerRecovery();
     bool mayLeave(const QString &what, const std::function<void()> &next) override;
     /// Off: shows no dialogs.
     void setAsking(bool isAsking);
 
-    /// Listens to a source and records into a folder, in files of limited length, with these settings or those of the
-    /// open document, which is closed. At the end the recording is opened.
-    void listenTo(LiveRun::OpenSource source, const QString &folder,
-                  const std::optional<AnalysisSettings> &settings = {}, const RotationSettings &rotation = {});
-    LiveRun &live();
-    LiveBar &liveBar();
     void setPlaying(bool isPlaying);
 
+    Opener &opener() { return *m_opener; }
+    Listening &listening() { return *m_listening; }
     TrialViewer &trials() { return *m_trials; }
     LessonGuide &lessonGuide() { return *m_lessons; }
     ChartMenus &chartMenus() { return *m_chartMenus; }
@@ -98,9 +84,6 @@ private:
     void buildPanels();
     void buildBottom();
     void buildStatusBar();
-    void nameWhatHolds();
-    void buildToolBar();
-    void connectCommands();
     void connectDocument();
     void connectController();
     void connectLessons();
@@ -111,19 +94,10 @@ private:
     void showHint();
     void showTitle();
     void showFailure(const Error &error);
-    void setSnrBandwidth(double hz);
-    void exportReport();
-    void reproduce(const Reproducible &reproducible, bool quick);
-    void setTheme(Theme::Kind kind);
-    void about();
-    void showEquation(); ///< of the current view
-    void showPalette();
     void takeLayout(const QString &name);
-    void saveLayout();
-    void restoreLayout();
+    void keepLayout();
 
     WindowMemory m_memory;
-    QString m_recoveryFolder;
     Panels *m_panels = nullptr;
     Commands *m_commands = nullptr;
     Opener *m_opener = nullptr;
@@ -137,10 +111,6 @@ private:
     BoxAnalysis *m_boxAnalysis = nullptr;
     Playback *m_playback = nullptr;
     ChartMenus *m_chartMenus = nullptr;
-    KeysOverlay *m_keys = nullptr;
-    EquationSheet *m_equation = nullptr;
-    CommandPalette *m_palette = nullptr;
-    QMenu *m_settingsMenu = nullptr; ///< of the palette
     QStackedWidget *m_pages = nullptr;
     std::vector<QToolBar *> m_bottomBars;
     ActivityBar *m_activity = nullptr;

@@ -9,12 +9,14 @@
 #include "app/document/scenarios.h"
 #include "app/lessons/Lesson.h"
 #include "app/lessons/LessonGuide.h"
+#include "app/lessons/LessonList.h"
 #include "app/lessons/writeLesson.h"
 #include "app/panels/ExperimentsPanel.h"
 #include "app/panels/OpenOptionsDialog.h"
 #include "app/panels/SurveyPanel.h"
 #include "app/panels/TargetsPanel.h"
 #include "app/views/WindowParts.h"
+#include "app/welcome/WelcomePage.h"
 #include "app/window/WindowMemory.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
@@ -22,16 +24,59 @@
 #include "widgets/base/labelText.h"
 
 #include <QDir>
+#include <QDropEvent>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QMenu>
+#include <QMimeData>
 #include <QUrl>
 
 namespace faintline {
 
-Opener::Opener(WindowParts &parts, LessonGuide &lessons, const WindowMemory &memory, QWidget &window)
+namespace {
+
+    /// The dragged files; empty if anything else is dragged.
+    QStringList filesOf(const QMimeData &data)
+    {
+        QStringList files;
+        for (const QUrl &url : data.urls())
+            if (const QString path = pathOf(url); !path.isEmpty())
+                files << path;
+        return files;
+    }
+
+} // namespace
+
+Opener::Opener(WindowParts &parts, LessonGuide &lessons, const LessonList &list, const WindowMemory &memory,
+               QWidget &window)
     : QObject(&window), m_parts(parts), m_lessons(lessons), m_memory(memory), m_window(window)
 {
+    const auto startBundled = [this](int lesson) { startLesson(faintline::lessons()[std::size_t(lesson)]); };
+    connect(&list, &LessonList::chosen, this, startBundled);
+    connect(&lessons, &LessonGuide::lessonRequested, this, startBundled);
+    connect(&parts.welcome(), &WelcomePage::openRequested, this, &Opener::chooseFile);
+    connect(&parts.welcome(), &WelcomePage::pathChosen, this, [this](const QString &path) { open(path); });
+    // Also on text fields, which would otherwise only insert names.
+    window.setAcceptDrops(true);
+    window.installEventFilter(this);
+    for (QWidget *child : window.findChildren<QWidget *>())
+        if (child->acceptDrops())
+            child->installEventFilter(this);
+}
+
+bool Opener::eventFilter(QObject *watched, QEvent *event)
+{
+    const bool isDrop = event->type() == QEvent::Drop;
+    if (!isDrop && event->type() != QEvent::DragEnter && event->type() != QEvent::DragMove)
+        return QObject::eventFilter(watched, event);
+    auto *drag = static_cast<QDropEvent *>(event);
+    const QStringList files = filesOf(*drag->mimeData());
+    if (files.isEmpty())
+        return QObject::eventFilter(watched, event);
+    drag->acceptProposedAction();
+    if (isDrop)
+        openDropped(files);
+    return true;
 }
 
 void Opener::open(const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust)

@@ -12,6 +12,7 @@ class QWidget;
 namespace faintline {
 
 class LessonGuide;
+class LessonList;
 struct Lesson;
 class WindowMemory;
 class WindowParts;
@@ -21,7 +22,9 @@ class WindowParts;
 class Opener : public QObject
 {
 public:
-    Opener(WindowParts &parts, LessonGuide &lessons, const WindowMemory &memory, QWidget &window);
+    /// Call after the window has created all its children.
+    Opener(WindowParts &parts, LessonGuide &lessons, const LessonList &list, const WindowMemory &memory,
+           QWidget &window);
 
     /// Off: shows no dialogs.
     void setAsking(bool isAsking) { m_isAsking = isAsking; }
@@ -38,7 +41,6 @@ public:
     void chooseFile();
     void chooseFolder();
     void chooseRawFile();
-    void openDropped(const QStringList &files);
     /// Opens the file `by` places after the current one, with the same settings.
     void goToFile(int by);
 
@@ -48,7 +50,12 @@ public:
 
     void fillRecentMenu(QMenu &menu);
 
+protected:
+    /// Opens files that are dropped anywhere on the window.
+    bool eventFilter(QObject *watched, QEvent *event) override;
+
 private:
+    void openDropped(const QStringList &files);
     void openTogether(const QStringList &files); ///< as one recording
 
     WindowParts &m_parts;

@@ -2,7 +2,6 @@
 
 #include "app/base/Panel.h"
 #include "app/base/screenSizes.h"
-#include "app/window/scaleText.h"
 
 #include <QAction>
 #include <QApplication>
@@ -17,6 +16,7 @@
 #include <QToolBar>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace faintline {
@@ -62,6 +62,35 @@ namespace {
              {"experimentsDock", "reproductionDock", "evaluateDock"}},
         };
         return all;
+    }
+
+    constexpr const char *usualSize = "usualTextSize";
+
+    bool isInPlot(const QWidget &widget)
+    {
+        for (const QWidget *each = &widget; each; each = each->parentWidget())
+            if (each->inherits("QwtPlot") || each->inherits("faintline::ChartPlot"))
+                return true;
+        return false;
+    }
+
+    void scaleOwnFont(QWidget &widget, double scale)
+    {
+        if (!widget.property(usualSize).isValid())
+            widget.setProperty(usualSize, widget.font().pixelSize());
+        QFont font = widget.font();
+        font.setPixelSize(int(std::lround(widget.property(usualSize).toInt() * scale)));
+        widget.setFont(font);
+    }
+
+    void scaleText(QWidget &panel, double scale)
+    {
+        QFont inherited = QApplication::font();
+        inherited.setPixelSize(int(std::lround(inherited.pixelSize() * scale)));
+        panel.setFont(scale == 1.0 ? QFont() : inherited);
+        for (QWidget *widget : panel.findChildren<QWidget *>())
+            if (widget->testAttribute(Qt::WA_SetFont) && !isInPlot(*widget))
+                scaleOwnFont(*widget, scale);
     }
 
 } // namespace
@@ -114,8 +143,22 @@ bool Panels::eventFilter(QObject *watched, QEvent *event)
     return QObject::eventFilter(watched, event);
 }
 
+void Panels::nameHolders()
+{
+    for (QWidget *widget : m_window.findChildren<QWidget *>()) {
+        const bool isHolder = widget->inherits("QScrollArea") || widget->inherits("QTabWidget");
+        if (!isHolder || !widget->accessibleName().isEmpty())
+            continue;
+        QWidget *panel = widget->parentWidget();
+        while (panel && panel->windowTitle().isEmpty() && panel != &m_window)
+            panel = panel->parentWidget();
+        widget->setAccessibleName(panel && panel != &m_window ? panel->windowTitle() : tr("Welcome"));
+    }
+}
+
 void Panels::rememberDefault()
 {
+    nameHolders();
     m_default = m_window.saveState();
 }
 

@@ -71,6 +71,8 @@ private:
         Place place;
     };
 
+    /// Names focusable container widgets after the panel that contains them.
+    void nameHolders();
     QDockWidget *dock(const QString &name) const;
     void raiseFromBottom(QDockWidget *dock, int percent);
     int tabHeight(const QDockWidget &dock) const;

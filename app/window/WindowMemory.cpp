@@ -1,8 +1,13 @@
 #include "app/window/WindowMemory.h"
 
 #include "app/base/filePath.h"
+#include "app/control/OutputLayers.h"
+#include "app/views/WindowParts.h"
+#include "app/workspace/PingBench.h"
+#include "app/workspace/Workbench.h"
 
 #include <QFileInfo>
+#include <QMainWindow>
 
 #include <algorithm>
 #include <cmath>
@@ -94,36 +99,54 @@ void WindowMemory::addDoneLesson(const QString &path)
     m_store->setValue(lessonsKey, paths);
 }
 
-WindowMemory::Layout WindowMemory::layout() const
-{
-    if (!m_store)
-        return {};
-    return {m_store->value(geometryKey).toByteArray(),
-            m_store->value(panelsKey).toByteArray(),
-            m_store->value(splittersKey).toByteArray(),
-            m_store->value(pingSplittersKey).toByteArray(),
-            m_store->value(colourMapKey).toString(),
-            m_store->value(orientationKey, "leftToRight").toString(),
-            m_store->value(logarithmicKey).toBool(),
-            m_store->value(radioKey).toBool(),
-            m_store->value(layerKey, "presence").toString(),
-            m_store->value(regulationKey, m_store->contains(panelsKey)).toBool()};
-}
-
-void WindowMemory::setLayout(const Layout &layout)
+void WindowMemory::keepLayout(const QMainWindow &window, const WindowParts &parts, bool isRegulationShown)
 {
     if (!m_store)
         return;
-    m_store->setValue(geometryKey, layout.geometry);
-    m_store->setValue(panelsKey, layout.panels);
-    m_store->setValue(splittersKey, layout.splitters);
-    m_store->setValue(pingSplittersKey, layout.pingSplitters);
-    m_store->setValue(colourMapKey, layout.colourMap);
-    m_store->setValue(orientationKey, layout.orientation);
-    m_store->setValue(logarithmicKey, layout.isLogarithmic);
-    m_store->setValue(radioKey, layout.isRadioAxis);
-    m_store->setValue(layerKey, layout.layer);
-    m_store->setValue(regulationKey, layout.isRegulationShown);
+    const ViewState view = parts.workbench().viewState();
+    const std::string_view layer = outputLayerNames[std::size_t(parts.workbench().layers().chosen())];
+    m_store->setValue(&parts.bench() == &parts.pingBench() ? pingSplittersKey : splittersKey,
+                      parts.bench().saveSplitters()); // the hidden bench keeps its own
+    m_store->setValue(geometryKey, window.saveGeometry());
+    m_store->setValue(panelsKey, window.saveState());
+    m_store->setValue(colourMapKey, view.colourMap);
+    m_store->setValue(orientationKey, view.orientation);
+    m_store->setValue(logarithmicKey, view.isLogarithmic);
+    m_store->setValue(radioKey, view.isRadioAxis);
+    m_store->setValue(layerKey, QString::fromLatin1(layer.data(), qsizetype(layer.size())));
+    m_store->setValue(regulationKey, isRegulationShown);
+}
+
+void WindowMemory::restoreLayout(QMainWindow &window, const WindowParts &parts) const
+{
+    Workbench &workbench = parts.workbench();
+    workbench.restore({{},
+                       {},
+                       m_store ? m_store->value(orientationKey, "leftToRight").toString() : QString(),
+                       m_store ? m_store->value(colourMapKey).toString() : QString(),
+                       m_store && m_store->value(logarithmicKey).toBool(),
+                       m_store && m_store->value(radioKey).toBool()});
+    if (!m_store)
+        return;
+    window.restoreGeometry(m_store->value(geometryKey).toByteArray());
+    if (m_store->contains(splittersKey))
+        workbench.restoreSplitters(m_store->value(splittersKey).toByteArray());
+    if (m_store->contains(pingSplittersKey))
+        parts.pingBench().restoreSplitters(m_store->value(pingSplittersKey).toByteArray());
+    const auto layer =
+        std::ranges::find(outputLayerNames, m_store->value(layerKey, "presence").toString().toStdString());
+    if (layer != outputLayerNames.end())
+        workbench.layers().setLayer(OutputLayer(layer - outputLayerNames.begin()));
+}
+
+QByteArray WindowMemory::panels() const
+{
+    return m_store ? m_store->value(panelsKey).toByteArray() : QByteArray();
+}
+
+bool WindowMemory::isRegulationShown() const
+{
+    return !m_store || m_store->value(regulationKey, m_store->contains(panelsKey)).toBool();
 }
 
 Theme::Kind WindowMemory::theme() const

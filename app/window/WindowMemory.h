@@ -8,26 +8,17 @@
 
 #include <memory>
 
+class QMainWindow;
+
 namespace faintline {
+
+class WindowParts;
 
 /// State of a window that persists between runs: recent files, layout, appearance. Without a store nothing is kept.
 /// A store that is still empty gives what a first window shows: time from left to right, and what was found.
 class WindowMemory
 {
 public:
-    struct Layout {
-        QByteArray geometry;
-        QByteArray panels;
-        QByteArray splitters;     ///< of the workbench
-        QByteArray pingSplitters; ///< of the bench of pings
-        QString colourMap;
-        QString orientation;
-        bool isLogarithmic = false; ///< the frequency axis
-        bool isRadioAxis = false;
-        QString layer; ///< of the output, as in outputLayerNames
-        bool isRegulationShown = true;
-    };
-
     explicit WindowMemory(std::unique_ptr<QSettings> store = {}) : m_store(std::move(store)) {}
 
     bool isKept() const { return m_store != nullptr; }
@@ -53,8 +44,11 @@ public:
     QStringList doneLessons() const;
     void addDoneLesson(const QString &path);
 
-    Layout layout() const;
-    void setLayout(const Layout &layout);
+    /// Keeps places of panels and pictures, colours, axes and layer.
+    void keepLayout(const QMainWindow &window, const WindowParts &parts, bool isRegulationShown);
+    void restoreLayout(QMainWindow &window, const WindowParts &parts) const;
+    QByteArray panels() const; ///< state of the window's docks
+    bool isRegulationShown() const;
 
     Theme::Kind theme() const;
     void setTheme(Theme::Kind kind);

@@ -1,8 +1,8 @@
-// The table of the window's commands, a function a menu.
-
 #include "app/window/MainWindow.h"
 
+#include "app/base/filePath.h"
 #include "app/control/BoxAnalysis.h"
+#include "app/control/EventFiles.h"
 #include "app/control/EventReviews.h"
 #include "app/control/OutputLayers.h"
 #include "app/control/PlainInput.h"
@@ -10,46 +10,51 @@
 #include "app/control/ShownEvents.h"
 #include "app/document/SessionSaver.h"
 #include "app/document/scenarios.h"
+#include "app/help/EquationSheet.h"
 #include "app/help/KeysOverlay.h"
 #include "app/lessons/LessonGuide.h"
 #include "app/panels/ComparePanel.h"
-#include "app/panels/EvaluatePanel.h"
 #include "app/panels/ExperimentsPanel.h"
+#include "app/panels/InjectDialog.h"
+#include "app/panels/LearnMotionDialog.h"
 #include "app/panels/PipelinePanel.h"
 #include "app/panels/SequentialPanel.h"
+#include "app/panels/StraightenDialog.h"
+#include "app/panels/chosenEvents.h"
+#include "app/views/ReportWriter.h"
 #include "app/views/WindowViews.h"
-#include "app/views/lineDialogs.h"
+#include "app/welcome/WelcomePage.h"
+#include "app/window/CommandPalette.h"
 #include "app/window/Commands.h"
 #include "app/window/Listening.h"
 #include "app/window/Opener.h"
 #include "app/window/Panels.h"
+#include "app/window/ToolBar.h"
 #include "app/window/currentView.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
+#include "detect/makeDetector.h"
+#include "frames/Spectrogram.h"
+#include "widgets/base/icon.h"
+#include "widgets/base/settingWords.h"
+#include "widgets/events/EventCard.h"
 #include "widgets/events/EventTable.h"
+#include "widgets/forms/SettingsForm.h"
 #include "widgets/waterfall/waterfallCommands.h"
 
+#include <QFileDialog>
 #include <QMenu>
 #include <QMenuBar>
+#include <QMessageBox>
+#include <QStackedWidget>
 
 namespace faintline {
 
-/// The rows, a function a menu.
+/// The table of the main window's commands, a function a menu, and what they alone do.
 class CommandTable : public Commands
 {
 public:
-    explicit CommandTable(MainWindow &window) : Commands(window), w(window)
-    {
-        addFile();
-        addEdit();
-        addView();
-        addLayers();
-        addLooks();
-        addPlay();
-        addLines();
-        addAnalyse();
-        addHelp();
-    }
+    explicit CommandTable(MainWindow &window);
 
 private:
     static constexpr auto Shown = Command::Shown, Always = Command::Always;
@@ -63,18 +68,58 @@ private:
     void addLines();
     void addAnalyse();
     void addHelp();
+    void buildToolBar();
+
+    /// An action that holds what is on or off, and is changed in other places as well.
+    template <class Set>
+    QAction *toggle(const char *name, Set set);
+    void connectMarks();
+    void connectPlay();
+    void connectPresentation();
 
     /// Brings a panel to the front.
     std::function<void()> show(const char *view)
     {
         return [this, view] { w.showView(QString::fromLatin1(view)); };
     }
+    void injectLine();
+    void learnMotion();
+    void straighten(); ///< along the selected event's track, or the strongest's
+    void exportReport();
+    void reproduce(const Reproducible &reproducible, bool quick);
+    void setTheme(Theme::Kind kind);
+    void showEquation(); ///< of the current view
+    void showPalette();
+    void about();
 
     MainWindow &w;
     const CommandKey noKey;
     const QString noTip;
     const std::function<void()> noRun;
+    KeysOverlay *m_keys;
+    EquationSheet *m_equation;
+    CommandPalette *m_palette;
+    QMenu *m_settings; ///< of the palette
 };
+
+CommandTable::CommandTable(MainWindow &window)
+    : Commands(window), w(window), m_keys(new KeysOverlay(&window)), m_equation(new EquationSheet(&window)),
+      m_palette(new CommandPalette(&window)), m_settings(new QMenu(tr("Setting"), &window))
+{
+    addFile();
+    addEdit();
+    addView();
+    addLayers();
+    addLooks();
+    addPlay();
+    addLines();
+    addAnalyse();
+    addHelp();
+    buildToolBar();
+    connectMarks();
+    connectPlay();
+    connectPresentation();
+}
 
 void CommandTable::addFile()
 {
@@ -113,7 +158,7 @@ void CommandTable::addFile()
     for (const WindowView &view : windowViews())
         add(tr("&File/Export &picture"),
             {{view.title, noKey, [this, name = view.name] { w.m_views->exportPicture(name); }}});
-    add(tr("&File"), {{tr("Export repor&t…"), noKey, [this] { w.exportReport(); }},
+    add(tr("&File"), {{tr("Export repor&t…"), noKey, [this] { exportReport(); }},
                       {},
                       {tr("&Quit"), Qt::CTRL | Qt::Key_Q, [this] { w.close(); }, noTip, Always}});
 }
@@ -210,10 +255,15 @@ void CommandTable::addLayers()
                                                   {tr("of &1 Hz"), 1.0},
                                                   {tr("of &500 Hz"), 500.0},
                                                   {tr("of &2500 Hz, as WSJT-X gives it"), 2500.0}};
-    for (const auto &[text, hz] : bandwidths)
+    for (const auto &[text, hz] : bandwidths) {
+        const auto setBandwidth = [this, hz = hz] {
+            w.m_memory.setSnrBandwidthHz(hz);
+            w.m_shownEvents->setSnrBandwidth(hz);
+        };
         add(tr("&View/S&NR in the bandwidth"),
-            {onOff({text, noKey, [this, hz = hz] { w.setSnrBandwidth(hz); }, noTip, Always, "", noTip, true},
+            {onOff({text, noKey, setBandwidth, noTip, Always, "", noTip, true},
                    [this, hz = hz] { return hz == w.m_shownEvents->snrBandwidth(); })});
+    }
 }
 
 /// Panels, layouts, themes.
@@ -227,7 +277,7 @@ void CommandTable::addLooks()
     add(tr("&View"), {{tr("Ma&ximise panel"), Qt::Key_F11, [this] { w.m_panels->toggleMaximised(); },
                        tr("Give the whole window to the panel that has the focus, or put it back")}});
     const auto change = [this] {
-        w.setTheme(Theme::kind(w.palette()) == Theme::Kind::Light ? Theme::Kind::Dark : Theme::Kind::Light);
+        setTheme(Theme::kind(w.palette()) == Theme::Kind::Light ? Theme::Kind::Dark : Theme::Kind::Light);
     };
     add(tr("&View/&Theme"), {{tr("Light &or dark"), Qt::Key_F6, change, noTip, Always}, {}});
     const std::pair<QString, Theme::Kind> kinds[]{{tr("&Light"), Theme::Kind::Light},
@@ -235,7 +285,7 @@ void CommandTable::addLooks()
                                                   {tr("&High contrast"), Theme::Kind::HighContrast}};
     for (const auto &[text, kind] : kinds)
         add(tr("&View/&Theme"),
-            {onOff({text, noKey, [this, kind = kind] { w.setTheme(kind); }, noTip, Always, "", noTip, true},
+            {onOff({text, noKey, [this, kind = kind] { setTheme(kind); }, noTip, Always, "", noTip, true},
                    [this, kind = kind] { return Theme::kind(w.palette()) == kind; })});
 }
 
@@ -267,14 +317,14 @@ void CommandTable::addLines()
          {},
          {tr("Doppler &fit"), Qt::Key_D, show("doppler"),
           tr("Fit a source that passes at constant speed to the selected event's track"), Shown, "doppler"},
-         {tr("S&traighten recording along this track…"), Qt::Key_T, [this] { straighten(w, w); }, noTip, Shown,
+         {tr("S&traighten recording along this track…"), Qt::Key_T, [this] { straighten(); }, noTip, Shown,
           "straighten", tr("Straighten…")},
-         {tr("Learn &motion from tracks…"), noKey, [this] { learnMotion(w, w); }},
+         {tr("Learn &motion from tracks…"), noKey, [this] { learnMotion(); }},
          {},
          {tr("Draw a line &by hand"), Qt::CTRL | Qt::Key_D, show("hand")},
          {tr("Pla&ce sonar targets"), Qt::CTRL | Qt::SHIFT | Qt::Key_D, show("targets"),
           tr("Place the targets of a simulated scene on the map, and edit them in a table")},
-         {tr("&Inject a line…"), Qt::CTRL | Qt::Key_I, [this] { injectLine(w, w); }}});
+         {tr("&Inject a line…"), Qt::CTRL | Qt::Key_I, [this] { injectLine(); }}});
 }
 
 /// Runs of the detector, and what tells how good they are.
@@ -323,10 +373,10 @@ void CommandTable::addAnalyse()
 
 void CommandTable::addHelp()
 {
-    const auto keys = [this] { w.m_keys->toggle(currentView(w, w), w.menuBar()->actions()); };
+    const auto keys = [this] { m_keys->toggle(currentView(w, w), w.menuBar()->actions()); };
     add(tr("&Help"),
         {{tr("&Keys and mouse"), Qt::Key_F1, keys, noTip, Always, "keys"},
-         {tr("&Equation of this view"), Qt::SHIFT | Qt::Key_F1, [this] { w.showEquation(); }, noTip, Always}});
+         {tr("&Equation of this view"), Qt::SHIFT | Qt::Key_F1, [this] { showEquation(); }, noTip, Always}});
     action("keys")->setShortcuts(
         {QKeySequence(Qt::Key_F1), QKeySequence(Qt::Key_Question), QKeySequence(Qt::SHIFT | Qt::Key_Question)});
     for (const Lesson &lesson : lessons()) {
@@ -355,10 +405,190 @@ void CommandTable::addHelp()
                  {}});
     for (const Reproducible &paper : reproducibles())
         add(papers, {{QString::fromStdString(paper.title), noKey,
-                      [this, &paper, isQuick] { w.reproduce(paper, *isQuick); }, noTip, Always}});
+                      [this, &paper, isQuick] { reproduce(paper, *isQuick); }, noTip, Always}});
     add(tr("&Help"),
-        {{tr("&Find a command or setting…"), Qt::CTRL | Qt::Key_K, [this] { w.showPalette(); }, noTip, Always},
-         {tr("&About Faintline"), noKey, [this] { w.about(); }, noTip, Always}});
+        {{tr("&Find a command or setting…"), Qt::CTRL | Qt::Key_K, [this] { showPalette(); }, noTip, Always},
+         {tr("&About Faintline"), noKey, [this] { about(); }, noTip, Always}});
+}
+
+void CommandTable::buildToolBar()
+{
+    auto *bar = new ToolBar(tr("Tools"));
+    w.addToolBar(bar);
+    bar->setObjectName(QStringLiteral("toolBar"));
+    const auto add = [this, bar](std::initializer_list<const char *> names, bool keepsText) {
+        for (const char *name : names)
+            bar->addAction(action(name), QLatin1String(name), keepsText);
+    };
+    add({"open"}, true);
+    QAction *examples = menu(tr("&File/Exa&mples"))->menuAction();
+    examples->setToolTip(tr("Open a recording or a simulated scene that comes with the program"));
+    bar->addAction(examples, QStringLiteral("scenario"), true);
+    bar->addSeparator();
+    add({"run", "stop"}, true);
+    bar->addSeparator();
+    add({"orientation", "colours", "show-all"}, false);
+    bar->addSeparator();
+    add({"step-back", "play", "step-forward"}, false);
+    bar->addSeparator();
+    add({"next-event"}, false);
+}
+
+template <class Set>
+QAction *CommandTable::toggle(const char *name, Set set)
+{
+    QAction *action = this->action(name);
+    action->setCheckable(true);
+    connect(action, &QAction::toggled, this, set);
+    return action;
+}
+
+void CommandTable::connectMarks()
+{
+    WaterfallView *input = w.m_workbench->input(), *output = w.m_workbench->output();
+    QAction *harmonics = toggle("harmonics", [input, output](bool isOn) {
+        input->setHarmonics(isOn);
+        output->setHarmonics(isOn);
+    });
+    connect(input, &WaterfallView::harmonicsChanged, harmonics, &QAction::setChecked);
+    connect(output, &WaterfallView::harmonicsChanged, harmonics, &QAction::setChecked);
+    QAction *sidebands = toggle("sidebands", [output](bool isOn) { output->setSidebands(isOn); });
+    connect(output, &WaterfallView::sidebandsChanged, sidebands,
+            [sidebands](double hz) { sidebands->setChecked(hz > 0.0); });
+    w.m_events->card().setActions({action("why"), action("hear"), harmonics, action("straighten"), action("doppler")});
+}
+
+void CommandTable::connectPlay()
+{
+    QAction *play = toggle("play", [this](bool isPlaying) { w.setPlaying(isPlaying); });
+    connect(play, &QAction::toggled, play,
+            [play](bool isOn) { play->setIcon(icon(isOn ? QStringLiteral("pause") : QStringLiteral("play"))); });
+    connect(w.m_playback, &Playback::playingChanged, play, &QAction::setChecked);
+    // Space also presses the focused button, so it plays only in the pictures.
+    play->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+    w.removeAction(play);
+    for (Bench *one : std::initializer_list<Bench *>{w.m_workbench, w.m_pings}) {
+        connect(one, &Bench::playingChanged, play, &QAction::setChecked);
+        one->addAction(play);
+    }
+}
+
+void CommandTable::connectPresentation()
+{
+    toggle("regulation", [this](bool isOn) { w.m_workbench->setRegulationWanted(isOn); })->setChecked(true);
+    QAction *stop = action("stop");
+    stop->setEnabled(false);
+    QAction *presenting = toggle("present", [this, stop](bool isPresenting) {
+        stop->setEnabled(isPresenting || w.m_controller.isBusy());
+        w.m_panels->setPresenting(isPresenting);
+        Theme::setPlotScale(isPresenting ? 1.5 : 1.0);
+        w.m_lessons->present(isPresenting);
+    });
+    connect(&w.m_controller, &AnalysisController::busyChanged, stop,
+            [stop, presenting](bool isBusy) { stop->setEnabled(isBusy || presenting->isChecked()); });
+}
+
+void CommandTable::exportReport()
+{
+    const QString path = QFileDialog::getSaveFileName(
+        &w, tr("Export report"), nameBeside(w.m_document.sourcePath(), QStringLiteral(".html")), tr("Report (*.html)"));
+    if (!path.isEmpty())
+        w.m_report->write(path);
+}
+
+void CommandTable::reproduce(const Reproducible &reproducible, bool quick)
+{
+    ReproduceOptions options;
+    options.quick = quick;
+    w.showWorkbench();
+    w.show(w.panel<ExperimentsPanel>());
+    w.m_experiments.start(reproducible, options);
+}
+
+void CommandTable::setTheme(Theme::Kind kind)
+{
+    Theme::apply(kind);
+    w.m_memory.setTheme(kind);
+}
+
+void CommandTable::showEquation()
+{
+    const QString name = currentView(w, w);
+    const bool isOfTracks =
+        w.m_workbench->layers().layer() == OutputLayer::Presence && !w.m_workbench->layers().isOverlay();
+    const QString detector = isOfTracks
+                                 ? QStringLiteral("presence")
+                                 : QString::fromLatin1(detectorNames[w.m_document.settings().detector.index()].data());
+    // If the first view is a map, input and output are maps, too.
+    const bool isMap = w.bench().firstViewName() == QLatin1String("map")
+                       && (name == QLatin1String("input") || name == QLatin1String("output"));
+    m_equation->toggle(equationOf(isMap ? QStringLiteral("map") : name, detector), w.m_lessons->widgetNamed(name));
+}
+
+void CommandTable::showPalette()
+{
+    refresh();
+    m_settings->clear();
+    QList<QAction *> commands = w.menuBar()->actions();
+    if (w.m_pages->currentWidget() != w.m_welcome) {
+        SettingsForm *form = w.panel<PipelinePanel>().form();
+        for (const auto &field : AnalysisSettings::fields()) {
+            const QString name = QString::fromStdString(field.name);
+            if (!form->isOffered(name))
+                continue;
+            const QString stage = stageLabel(name.section(QLatin1Char('.'), 0, 0));
+            m_settings->addAction(QStringLiteral("%1: %2").arg(stage, settingLabel(name)), [this, form, name] {
+                w.show(w.panel<PipelinePanel>());
+                form->reveal(name);
+            });
+        }
+        commands << m_settings->menuAction();
+    }
+    m_palette->open(commands);
+}
+
+void CommandTable::about()
+{
+    QMessageBox::about(&w, tr("About Faintline"),
+                       tr("<b>Faintline %1</b><p>Track-before-detect for faint lines that drift and wander.</p>"
+                          "<p>Free software under the GNU General Public License, version 3 or later.</p>"
+                          "<p>Based in part on the work of the Qwt project (http://qwt.sf.net).</p>")
+                           .arg(QStringLiteral(FAINTLINE_VERSION)));
+}
+
+void CommandTable::injectLine()
+{
+    const auto &analysis = w.m_document.analysis();
+    const Spectrogram *spectrogram = analysis ? analysis->frames->spectrogram() : nullptr;
+    if (!spectrogram)
+        return;
+    const RecordingInfo &info = w.m_document.recording()->info();
+    const Viewport &viewport = w.m_document.viewport();
+    const Viewport::Point at =
+        viewport.cursor().value_or(Viewport::Point{viewport.full().time.middle(), viewport.full().frequency.middle()});
+    InjectDialog dialog(info, at.seconds, at.hz, spectrogram->windowSeconds(), &w);
+    if (dialog.exec() == QDialog::Accepted)
+        w.m_controller.inject(dialog.line());
+}
+
+void CommandTable::learnMotion()
+{
+    if (!w.m_document.analysis())
+        return;
+    auto *dialog = new LearnMotionDialog(w.m_document.analysis(), w.m_controller, &w);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->open();
+}
+
+void CommandTable::straighten()
+{
+    const std::vector<Event> events = chosenEvents(w.m_document, *w.m_events);
+    if (!w.m_document.lineAnalysis() || !w.m_document.recording() || events.empty())
+        return w.showError(Error(tr("Straighten").toStdString(), "requires a recording with an event to follow"));
+    auto *dialog = new StraightenDialog(w.m_document, events.front(), w.m_reviews->files().provenance(), &w);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &StraightenDialog::written, &w, &MainWindow::showWritten);
+    dialog->open();
 }
 
 Commands *makeCommands(MainWindow &window)

@@ -3,6 +3,7 @@
 #include "app/base/filePath.h"
 #include "app/document/Recovery.h"
 #include "app/window/MainWindow.h"
+#include "app/window/Opener.h"
 
 #include <QScreen>
 
@@ -37,7 +38,7 @@ std::vector<std::unique_ptr<MainWindow>> programWindows(const std::vector<std::s
         if (i < files.size())
             windows.back()->open(pathText(files[i]), options);
     }
-    windows.front()->offerRecovery();
+    windows.front()->opener().offerRecovery(Recovery::programFolder());
     return windows;
 }
 

@@ -96,7 +96,7 @@ inline std::unique_ptr<MainWindow> listeningWindow(const QTemporaryDir &folder, 
                                                    const AnalysisSettings &settings)
 {
     auto window = newWindow();
-    window->listenTo(feeder.source(), folder.path(), settings);
+    window->listening().start(feeder.source(), folder.path(), settings);
     return window;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/window/Listening.h"
 #include "app/window/MainWindow.h"
 #include "support/slowdown.h"
 

@@ -54,7 +54,7 @@ void tst_Live::showsAndRecords()
     Feeder feeder(folder, samples);
     const auto window = listeningWindow(folder, feeder, m_settings);
     Document &document = window->document();
-    QVERIFY(window->liveBar().isVisible());
+    QVERIFY(window->listening().bar().isVisible());
     feeder.allow(140.0);
     QTRY_VERIFY_WITH_TIMEOUT(document.isLive() && document.live().time.last() > 138.0, patience);
     const Workbench &bench = window->workbench();
@@ -66,16 +66,17 @@ void tst_Live::showsAndRecords()
     QVERIFY(document.viewport().isFollowing());
     QVERIFY(std::abs(document.viewport().time().high - document.live().time.last()) < 1.0);
     QVERIFY(document.shownEvents().size() >= 4);
-    QVERIFY(window->liveBar().text().contains(QStringLiteral("UTC")) || window->liveBar().text().contains('Z'));
-    QVERIFY(window->liveBar().text().contains(QStringLiteral("no sample lost")));
+    QVERIFY(window->listening().bar().text().contains(QStringLiteral("UTC"))
+            || window->listening().bar().text().contains('Z'));
+    QVERIFY(window->listening().bar().text().contains(QStringLiteral("no sample lost")));
 
-    QSignalSpy ended(&window->live(), &LiveRun::ended);
+    QSignalSpy ended(&window->listening().run(), &LiveRun::ended);
     feeder.allowAll();
     QVERIFY(ended.wait(patience));
-    const QString recording = window->live().state().recording;
+    const QString recording = window->listening().run().state().recording;
     QTRY_VERIFY_WITH_TIMEOUT(document.isCurrent() && !window->controller().isBusy(), patience);
     QVERIFY(!document.isLive());
-    QVERIFY(window->liveBar().isHidden());
+    QVERIFY(window->listening().bar().isHidden());
     QCOMPARE(document.sourcePath(), recording);
     QVERIFY(document.settings().noise.causal);
 
@@ -141,8 +142,8 @@ void tst_Live::holdsAndScrollsBack()
     window->workbench().setPlaying(true);
     feeder.allow(280.0);
     QTRY_VERIFY_WITH_TIMEOUT(viewport.time().high > 278.0, patience);
-    window->live().stop();
-    QTRY_VERIFY_WITH_TIMEOUT(!window->live().isRunning(), patience);
+    window->listening().run().stop();
+    QTRY_VERIFY_WITH_TIMEOUT(!window->listening().run().isRunning(), patience);
 }
 
 void tst_Live::recordsInSeveralFiles()
@@ -152,7 +153,7 @@ void tst_Live::recordsInSeveralFiles()
     const auto window = newWindow();
     RotationSettings rotation;
     rotation.longestSeconds = 30.0;
-    window->listenTo(feeder.source(), folder.path(), m_settings, rotation);
+    window->listening().start(feeder.source(), folder.path(), m_settings, rotation);
     Document &document = window->document();
     feeder.allow(100.0);
     QTRY_VERIFY_WITH_TIMEOUT(document.isLive() && document.live().time.last() > 98.0, patience);
@@ -204,8 +205,8 @@ void tst_Live::changesTheThreshold()
     QVERIFY(document.live().plan->threshold > before + 1.0);
     QCOMPARE(document.shownThreshold(), document.live().plan->threshold);
     QCOMPARE(*window->workbench().output()->threshold(), document.live().plan->threshold);
-    window->live().stop();
-    QTRY_VERIFY_WITH_TIMEOUT(!window->live().isRunning(), patience);
+    window->listening().run().stop();
+    QTRY_VERIFY_WITH_TIMEOUT(!window->listening().run().isRunning(), patience);
 }
 
 void tst_Live::stopsWhenTheWindowCloses()
@@ -217,8 +218,8 @@ void tst_Live::stopsWhenTheWindowCloses()
     QTRY_VERIFY_WITH_TIMEOUT(window->document().isLive() && window->document().live().time.last() > 50.0, patience);
     window->close();
     QTRY_VERIFY_WITH_TIMEOUT(window->isHidden(), patience);
-    QVERIFY(!window->live().isRunning());
-    const auto kept = openRecording(window->live().state().recording.toStdString());
+    QVERIFY(!window->listening().run().isRunning());
+    const auto kept = openRecording(window->listening().run().state().recording.toStdString());
     QVERIFY(kept->info().durationSeconds() > 50.0);
 }
 
@@ -226,14 +227,14 @@ void tst_Live::tellsOfASourceThatCannotBe()
 {
     const QTemporaryDir folder;
     const auto window = newWindow();
-    window->listenTo(
+    window->listening().start(
         [](const std::stop_token &stop) -> std::unique_ptr<SampleSource> {
             return std::make_unique<PipeSource>("/nowhere/fifo", format(), stop);
         },
         folder.path());
-    QTRY_VERIFY_WITH_TIMEOUT(!window->live().isRunning(), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(!window->listening().run().isRunning(), patience);
     QVERIFY(window->messages().text().contains(QStringLiteral("/nowhere/fifo")));
-    QVERIFY(window->liveBar().isHidden());
+    QVERIFY(window->listening().bar().isHidden());
     QVERIFY(QDir(folder.path()).entryList({QStringLiteral("*.sigmf-*")}).isEmpty());
 }
 
@@ -277,19 +278,19 @@ void tst_Live::tellsWhatIsLost()
     };
     const QTemporaryDir folder;
     const auto window = newWindow();
-    QSignalSpy notices(&window->live(), &LiveRun::noticed);
-    window->listenTo([](const std::stop_token &) { return std::make_unique<Receiver>(scene(120.0)); }, folder.path(),
-                     m_settings);
+    QSignalSpy notices(&window->listening().run(), &LiveRun::noticed);
+    window->listening().start([](const std::stop_token &) { return std::make_unique<Receiver>(scene(120.0)); },
+                              folder.path(), m_settings);
     QTRY_VERIFY_WITH_TIMEOUT(window->document().isLive() && window->document().live().time.last() > 119.0, patience);
     QTRY_COMPARE_WITH_TIMEOUT(notices.count(), 2, patience);
     QVERIFY2(window->messages().text().contains(QStringLiteral("The receiver is back.")),
              qPrintable(window->messages().text()));
-    QTRY_VERIFY2(window->liveBar().text().contains(QStringLiteral("1.500 s of samples lost in 1 gap")),
-                 qPrintable(window->liveBar().text()));
+    QTRY_VERIFY2(window->listening().bar().text().contains(QStringLiteral("1.500 s of samples lost in 1 gap")),
+                 qPrintable(window->listening().bar().text()));
     QCOMPARE(window->document().live().lostCount, Index(1500));
-    window->live().stop();
-    QTRY_VERIFY_WITH_TIMEOUT(!window->live().isRunning(), patience);
-    const auto kept = openRecording(window->live().state().recording.toStdString());
+    window->listening().run().stop();
+    QTRY_VERIFY_WITH_TIMEOUT(!window->listening().run().isRunning(), patience);
+    const auto kept = openRecording(window->listening().run().state().recording.toStdString());
     QCOMPARE(kept->info().sampleCount, Index(121'500));
 }
 

@@ -89,8 +89,8 @@ void tst_LiveLookBack::saysWhyMeanwhile()
     QTRY_VERIFY_WITH_TIMEOUT(document.live().time.last() > 88.0, patience);
     document.viewport().setCursor({86.0, 340.0}); // noise, and newer than what was looked at before
     QTRY_VERIFY_WITH_TIMEOUT(sentenceOf(*why).startsWith(QStringLiteral("Not detected")), patience);
-    window->live().stop();
-    QTRY_VERIFY_WITH_TIMEOUT(!window->live().isRunning(), patience);
+    window->listening().run().stop();
+    QTRY_VERIFY_WITH_TIMEOUT(!window->listening().run().isRunning(), patience);
 }
 
 FAINTLINE_WINDOW_TEST(tst_LiveLookBack)

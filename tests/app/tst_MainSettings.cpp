@@ -55,7 +55,8 @@ private slots:
     void theyAreTheFormsSettings()
     {
         for (SettingRow *one : m_main->findChildren<SettingRow *>()) {
-            const QWidget *there = m_window->panel<PipelinePanel>().form()->editor(QString::fromStdString(one->info().name));
+            const QWidget *there =
+                m_window->panel<PipelinePanel>().form()->editor(QString::fromStdString(one->info().name));
             QVERIFY(there && !one->editor()->property("text").toString().isEmpty());
             QCOMPARE(one->editor()->property("text"), there->property("text"));
         }

@@ -255,7 +255,7 @@ private slots:
         QVERIFY(openWithNineRates(*w, path("pings.json")));
         w->showView("slice");
         w->panel<StateSlicePanel>().findChild<QTabBar *>()->setCurrentIndex(1);
-        QCoreApplication::processEvents();          // the bars find their places
+        QCoreApplication::processEvents();                          // the bars find their places
         QCOMPARE(w->panel<StateSlicePanel>().law().plotCount(), 1); // a slope set has one law for both axes
         LawPlot &plot = *w->panel<StateSlicePanel>().law().plot(0);
         const std::vector<double> before = w->document().settings().model.slopeChange;

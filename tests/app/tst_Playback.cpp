@@ -235,11 +235,12 @@ void tst_Playback::whatComesInIsHeard()
     settings.noise.blockWindows = 8.0;
     setSetting(settings, "detector.kind", "energy"); // with nothing to be calibrated
     setSetting(settings, "decide.thresholdNats", "1000");
-    window->listenTo([](const std::stop_token &) { return std::make_unique<Whistle>(); }, m_folder.path(), settings);
+    window->listening().start([](const std::stop_token &) { return std::make_unique<Whistle>(); }, m_folder.path(),
+                              settings);
     QTRY_VERIFY_WITH_TIMEOUT(window->document().isLive(), patience);
     Ear ear;
     ear.hear(1);
-    auto *button = window->liveBar().findChild<QToolButton *>("hear");
+    auto *button = window->listening().bar().findChild<QToolButton *>("hear");
     button->click();
     Playback &hearing = *window->findChild<Playback *>();
     QVERIFY(hearing.isPlaying());
@@ -251,16 +252,16 @@ void tst_Playback::whatComesInIsHeard()
     QVERIFY2(ear.amplitude(700.0) > 0.08, qPrintable(QString::number(ear.amplitude(700.0))));
     QVERIFY(ear.amplitude(2000.0) < 0.01);
     static const QRegularExpression later(QStringLiteral("heard ([0-9.]+) s later"));
-    QTRY_VERIFY(later.match(window->liveBar().text()).hasMatch());
-    const double delay = later.match(window->liveBar().text()).captured(1).toDouble();
-    QVERIFY2(delay > 0.0 && delay < 5.0 * slowdown, qPrintable(window->liveBar().text()));
+    QTRY_VERIFY(later.match(window->listening().bar().text()).hasMatch());
+    const double delay = later.match(window->listening().bar().text()).captured(1).toDouble();
+    QVERIFY2(delay > 0.0 && delay < 5.0 * slowdown, qPrintable(window->listening().bar().text()));
     button->click();
     QVERIFY(!hearing.isPlaying());
     button->click();
     QVERIFY(hearing.isPlaying());
-    window->live().stop();
+    window->listening().run().stop();
     QTRY_VERIFY_WITH_TIMEOUT(!hearing.isPlaying() && !button->isChecked(), patience);
-    QTRY_VERIFY_WITH_TIMEOUT(!window->live().isRunning(), patience);
+    QTRY_VERIFY_WITH_TIMEOUT(!window->listening().run().isRunning(), patience);
     window.reset();
     m_window->activateWindow(); // whose keys the others press
     QVERIFY(QTest::qWaitForWindowActive(m_window.get()));

@@ -4,6 +4,7 @@
 #include "app/base/filePath.h"
 #include "app/document/Recovery.h"
 #include "app/openWindow.h"
+#include "app/window/Opener.h"
 #include "exchange/Session.h"
 #include "support/test.h"
 
@@ -106,7 +107,7 @@ void tst_Recovery::survivesAKill()
     MainWindow window(nullptr, recovery);
     window.setAsking(false);
     window.show();
-    window.offerRecovery();
+    window.opener().offerRecovery(recovery);
     QVERIFY(window.messages().text().contains("Unsaved work"));
     QSignalSpy settled(&window.controller(), &AnalysisController::settled);
     QSignalSpy kept(&window.recovery(), &Recovery::kept);

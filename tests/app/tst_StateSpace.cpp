@@ -172,7 +172,8 @@ private slots:
         Viewport &viewport = m_window->document().viewport();
         viewport.zoomTo(viewport.time(), {150.0, 250.0});
         QCOMPARE(m_window->panel<StateSlicePanel>().view()->viewport()->frequency(), (Span{150.0, 250.0}));
-        m_window->panel<StateSlicePanel>().view()->viewport()->zoomTo(m_window->panel<StateSlicePanel>().view()->viewport()->time(), {180.0, 220.0});
+        m_window->panel<StateSlicePanel>().view()->viewport()->zoomTo(
+            m_window->panel<StateSlicePanel>().view()->viewport()->time(), {180.0, 220.0});
         QCOMPARE(viewport.frequency(), (Span{180.0, 220.0}));
     }
 

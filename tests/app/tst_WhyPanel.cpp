@@ -101,7 +101,8 @@ void tst_WhyPanel::otherDetectorsSayThatTheyHaveNoPath()
     m_window->controller().edit("detector.kind", std::string("pOfN"), "detector");
     QVERIFY(analysed.wait(patience));
     QVERIFY(settle(m_window->panel<WhyPanel>()));
-    QVERIFY2(sentenceOf(m_window->panel<WhyPanel>()).contains("path"), qPrintable(sentenceOf(m_window->panel<WhyPanel>())));
+    QVERIFY2(sentenceOf(m_window->panel<WhyPanel>()).contains("path"),
+             qPrintable(sentenceOf(m_window->panel<WhyPanel>())));
     QCOMPARE(m_window->panel<WhyPanel>().ladder()->rowCount(), 0);
 }
 

@@ -7,7 +7,6 @@
 #include "app/lessons/LessonGuide.h"
 #include "app/openWindow.h"
 #include "app/panels/ExperimentsPanel.h"
-#include "app/window/FileDrop.h"
 #include "app/workspace/Workbench.h"
 #include "base/files/AtomicFile.h"
 #include "base/files/fileName.h"
