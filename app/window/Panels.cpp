@@ -83,6 +83,7 @@ namespace {
         widget.setFont(font);
     }
 
+    /// Relative to the usual size. Plots are left alone: they follow Theme::setPlotScale.
     void scaleText(QWidget &panel, double scale)
     {
         QFont inherited = QApplication::font();
