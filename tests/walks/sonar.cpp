@@ -74,7 +74,8 @@ void takeLayout(Walk &walk)
     walk.choose({"View", "Layout", "Active sonar"});
     walk.waitUntil("wide maps", [&] {
         const PingBench &bench = walk.window().pingBench();
-        return walk.window().panel<StateSlicePanel>().isVisible() && bench.input()->width() >= 350 && bench.output()->width() >= 350;
+        return walk.window().panel<StateSlicePanel>().isVisible() && bench.input()->width() >= 350
+               && bench.output()->width() >= 350;
     });
     walk.takePicture("sonar-layout");
 }

@@ -62,7 +62,8 @@ void present(Walk &walk)
     walk.takePicture("teacher-presentation");
     walk.hand.press("Escape");
     walk.waitUntil("the window again", [&] {
-        return !walk.window().isFullScreen() && guide(walk).dock()->isVisible() && walk.window().panel<PipelinePanel>().isVisible();
+        return !walk.window().isFullScreen() && guide(walk).dock()->isVisible()
+               && walk.window().panel<PipelinePanel>().isVisible();
     });
     walk.takePicture("teacher-after-presentation");
 }
@@ -101,7 +102,7 @@ void goThrough(Walk &walk)
     walk.fillIn("Slope change law", "0.34, 0.33");
     waitForTask(walk);
     goOn(walk, 2);
-    walk.hand.click(walk.placeIn(*walk.window().workbench().output(), 60.0, 250.0));
+    walk.hand.click(walk.placeIn(*walk.window().workbench().output(), 48.0, 250.0));
     waitForTask(walk);
     walk.takePicture("teacher-why");
     goOn(walk, 3);
