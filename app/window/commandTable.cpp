@@ -42,6 +42,7 @@
 #include "widgets/forms/SettingsForm.h"
 #include "widgets/waterfall/waterfallCommands.h"
 
+#include <QApplication>
 #include <QFileDialog>
 #include <QMenu>
 #include <QMenuBar>
@@ -332,6 +333,8 @@ void CommandTable::addAnalyse()
 {
     QAction *presenting = action("present"); // which Escape leaves
     const auto stop = [this, presenting] {
+        if (QWidget *list = QApplication::activePopupWidget(); list && !qobject_cast<QMenu *>(list))
+            return void(list->close()); // the choices of a field
         presenting->isChecked() ? presenting->setChecked(false) : w.m_controller.stop();
     };
     const auto keep = [this] {
@@ -481,6 +484,8 @@ void CommandTable::connectPresentation()
     QAction *presenting = toggle("present", [this, stop](bool isPresenting) {
         stop->setEnabled(isPresenting || w.m_controller.isBusy());
         w.m_panels->setPresenting(isPresenting);
+        if (!isPresenting && w.m_pages->currentWidget() == &w.bench())
+            w.showBars(); // of what is open now
         Theme::setPlotScale(isPresenting ? 1.5 : 1.0);
         w.m_lessons->present(isPresenting);
     });

@@ -803,6 +803,14 @@ void tst_Lessons::escapeLeavesAPresentationFromAnyField()
         QVERIFY2(window->menuBar()->isVisible(), qPrintable(QString::number(place)));
         QVERIFY(guide.isRunning() && guide.panel().isVisible());
     }
+    QTest::keyClick(window.get(), Qt::Key_F5);
+    auto *choices = qobject_cast<QComboBox *>(window->findChild<SettingsForm *>()->editor("smd.reset"));
+    QVERIFY(choices);
+    choices->showPopup();
+    QTRY_VERIFY(QApplication::activePopupWidget());
+    QTest::keyClick(QApplication::activePopupWidget(), Qt::Key_Escape);
+    QVERIFY(!QApplication::activePopupWidget());
+    QVERIFY(!window->menuBar()->isVisible());
 }
 
 void tst_Lessons::menuPaletteAndWelcomePageOfferThem()
