@@ -256,7 +256,7 @@ bool Playback::beginRecording(const MakePlayer &make)
 
 bool Playback::startLive()
 {
-    if (m_document.live().isEmpty())
+    if (!m_document.isLive())
         return false;
     silence();
     setPlaying(false);
@@ -303,7 +303,7 @@ void Playback::follow()
 
 void Playback::followLive()
 {
-    if (m_document.live().isEmpty())
+    if (!m_document.isLive())
         return stop();
     const LiveChoice wanted = liveChoice();
     if (std::exchange(m_wanted, wanted) == wanted

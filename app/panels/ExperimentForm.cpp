@@ -35,13 +35,22 @@ namespace {
         lines.frames = needed * 3 + needed / 2;
     }
 
-    /// Before an experiment is opened.
-    template <class S>
-    S initial()
+    // Before an experiment is opened.
+    const std::vector<double> initialSnrDb{-5.0, -4.0, -3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0};
+
+    LineExperiment initialLines()
     {
-        S experiment;
-        experiment.snrDb = {-5.0, -4.0, -3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0};
-        return experiment;
+        LineExperiment lines;
+        lines.snrDb = initialSnrDb;
+        return lines;
+    }
+
+    InjectionExperiment initialInjection()
+    {
+        InjectionExperiment injection;
+        injection.snrDb = initialSnrDb;
+        injection.trials = 20;
+        return injection;
     }
 
 } // namespace
@@ -52,12 +61,12 @@ ExperimentForm::ExperimentForm(QWidget *parent)
           tr("Lines"),
           withMainFields(LineExperiment::fields(), {"snrDb", "durationWindows", "driftCellsPerWindow", "wanderCells",
                                                     "wanderWindows", "runs", "seed"}),
-          initial<LineExperiment>())),
+          initialLines())),
       m_injection(new FieldForm<InjectionExperiment>(
           tr("Lines"),
           withMainFields(InjectionExperiment::fields(), {"snrDb", "durationSeconds", "driftHzPerSecond", "wanderHz",
                                                          "wanderSeconds", "trials", "seed", "falseAlarmsPerHour"}),
-          initial<InjectionExperiment>())),
+          initialInjection())),
       m_grid(new QGridLayout), m_meaning(plainLabel())
 {
     m_noise->addItem(tr("In simulated noise"));
@@ -89,6 +98,7 @@ ExperimentForm::ExperimentForm(QWidget *parent)
     m_meaning->setFont(Theme::font(12));
 
     connect(m_noise, &QComboBox::currentIndexChanged, m_forms, &QStackedWidget::setCurrentIndex);
+    connect(m_noise, &QComboBox::currentIndexChanged, this, &ExperimentForm::suggestInjection);
     connect(m_noise, &QComboBox::currentIndexChanged, this, &ExperimentForm::changed);
     connect(m_injection, &FieldFormBase::edited, this, [this] { m_isInjectionOwn = true; });
     for (FieldFormBase *form : std::initializer_list<FieldFormBase *>{m_lines, m_injection})
@@ -164,24 +174,28 @@ void ExperimentForm::setDetectors(const std::vector<DetectorUnderTest> &detector
 
 void ExperimentForm::setCurrent(const AnalysisSettings &settings, double windowSeconds, double recordingSeconds)
 {
+    m_isInjectionOwn &= recordingSeconds == m_recordingSeconds;
     m_settings = settings;
     m_windowSeconds = windowSeconds;
     m_recordingSeconds = recordingSeconds;
     if (windowSeconds <= 0.0)
         m_noise->setCurrentIndex(0);
     m_noise->setEnabled(windowSeconds > 0.0);
-    if (windowSeconds > 0.0 && !m_isInjectionOwn)
-        suggestInjection();
+    suggestInjection();
     emit changed();
 }
 
-/// Lines like those in simulated noise, with noise on either side.
+/// Lines like those in simulated noise, with noise on either side, unless others were entered.
 void ExperimentForm::suggestInjection()
 {
+    if (m_windowSeconds <= 0.0 || m_isInjectionOwn)
+        return;
     const LineExperiment &like = m_lines->value();
     InjectionExperiment injection = m_injection->value();
     injection.durationSeconds =
         m_windowSeconds * std::min(like.durationWindows, std::floor(0.5 * m_recordingSeconds / m_windowSeconds));
+    injection.driftHzPerSecond = like.driftCellsPerWindow / (m_windowSeconds * m_windowSeconds);
+    injection.wanderHz = like.wanderCells / m_windowSeconds;
     injection.wanderSeconds = like.wanderWindows * m_windowSeconds;
     m_injection->setValue(injection);
 }
@@ -267,6 +281,8 @@ void ExperimentForm::check() const
 {
     if (chosen().empty())
         throw Error("detectors", tr("choose at least one").toStdString());
+    if (static_cast<FieldFormBase *>(m_forms->currentWidget())->isRefused())
+        throw Error("experiment", tr("the marked value must be corrected").toStdString());
     if (!isInRecording())
         return checkExperiment(lines());
     const InjectionExperiment &injection = m_injection->value();

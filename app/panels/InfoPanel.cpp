@@ -141,7 +141,7 @@ InfoPanel::InfoPanel(const Document &document, AnalysisController &controller, R
     column->setSpacing(0);
     column->addWidget(m_check);
     column->addWidget(m_label, 1);
-    setScrolledColumn(*this, content);
+    setScrolledColumn(*this, content, Qt::ScrollBarAsNeeded);
 
     connect(&document, &Document::opened, this, &InfoPanel::refresh);
     connect(&document, &Document::analysisChanged, this, &InfoPanel::refresh);

@@ -64,7 +64,7 @@ InjectDialog::InjectDialog(const RecordingInfo &recording, double startSeconds, 
 
 void InjectDialog::check()
 {
-    QString why;
+    QString why = m_line->isRefused() ? tr("Correct the marked value.") : QString();
     try {
         checkLine(line(), m_recording, "line");
     } catch (const Error &error) {

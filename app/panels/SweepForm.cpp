@@ -23,7 +23,16 @@ namespace {
 
     constexpr double windowsOfALine = 60.0; ///< initial duration of a line
     constexpr double windowsOfMargin = 30.0;
-    constexpr double samplesOfAWindow = 400.0; ///< of simulated noise
+    constexpr double samplesOfAWindow = 400.0;   ///< of simulated noise
+    constexpr double initialWindowSeconds = 0.5; ///< without a recording
+
+    SweepExperiment linesOf(double windowSeconds, SweepExperiment lines = {})
+    {
+        lines.sampleRateHz = samplesOfAWindow / windowSeconds;
+        lines.durationSeconds = windowsOfALine * windowSeconds;
+        lines.marginSeconds = lines.wanderSeconds = windowsOfMargin * windowSeconds;
+        return lines;
+    }
 
     QHBoxLayout *row(std::initializer_list<QWidget *> widgets)
     {
@@ -72,7 +81,8 @@ SweepForm::SweepForm(QWidget *parent)
       m_lines(new FieldForm<SweepExperiment>(
           tr("Lines"),
           withMainFields(SweepExperiment::fields(), {"snrDb", "durationSeconds", "marginSeconds", "driftHzPerSecond",
-                                                     "wanderHz", "wanderSeconds", "trials", "seed"}))),
+                                                     "wanderHz", "wanderSeconds", "trials", "seed"}),
+          linesOf(initialWindowSeconds))),
       m_meaning(plainLabel())
 {
     m_steps->setRange(2, 60);
@@ -129,10 +139,15 @@ void SweepForm::setCurrent(const AnalysisSettings &settings, const QString &reco
     if (isOtherDetector)
         fillParameters();
     if (isOther && windowSeconds > 0.0) {
+        m_lines->setValue(linesOf(windowSeconds, m_lines->value()));
+    }
+    const double setSeconds = settings.spectrogram.windowSeconds;
+    if (const double used = setSeconds > 0.0      ? setSeconds
+                            : windowSeconds > 0.0 ? windowSeconds
+                                                  : initialWindowSeconds;
+        std::exchange(m_usedSeconds, used) != used) {
         SweepExperiment lines = m_lines->value();
-        lines.sampleRateHz = samplesOfAWindow / windowSeconds;
-        lines.durationSeconds = windowsOfALine * windowSeconds;
-        lines.marginSeconds = lines.wanderSeconds = windowsOfMargin * windowSeconds;
+        lines.sampleRateHz = samplesOfAWindow / used;
         m_lines->setValue(lines);
     }
     emit changed();
@@ -235,6 +250,8 @@ bool SweepForm::isInRecording() const
 
 SweepExperiment SweepForm::experiment() const
 {
+    if (m_lines->isRefused())
+        throw Error("sweep", tr("the marked value must be corrected").toStdString());
     SweepExperiment sweep = m_lines->value();
     sweep.settings = m_settings;
     sweep.settings.selection = isInRecording() ? m_settings.selection : SelectionSettings();

@@ -49,6 +49,7 @@ private:
     AnalysisSettings m_settings;
     QString m_recording;
     double m_windowSeconds = 0.0;
+    double m_usedSeconds = 0.0; ///< the window set, else that of the analysis
     QComboBox *m_parameter;
     QLineEdit *m_from;
     QLineEdit *m_to;

@@ -73,7 +73,7 @@ WelcomePage::WelcomePage(QWidget *lessons, QWidget *parent) : QWidget(parent), m
     centring->addStretch(1);
     centring->addWidget(page, 1000);
     centring->addStretch(1);
-    setScrolledColumn(*this, centred);
+    setScrolledColumn(*this, centred, Qt::ScrollBarAsNeeded);
 }
 
 QLayout *WelcomePage::buildCards(const std::vector<Scenario> &shown)

@@ -38,6 +38,7 @@ void Commands::add(const QString &way, std::initializer_list<Command> rows)
         if (row.entries) {
             QMenu *const own = menu(way + QLatin1Char('/') + row.text);
             m_updates.emplace_back([own, entries = row.entries] {
+                qDeleteAll(own->findChildren<QMenu *>(QString(), Qt::FindDirectChildrenOnly)); // which clear() leaves
                 own->clear();
                 entries(*own);
             });
@@ -85,14 +86,22 @@ void Commands::setShown(bool isShown)
 {
     for (QAction *action : m_ofShown)
         action->setEnabled(isShown);
-    for (QMenu *each : m_menus) // of which nothing can be chosen
-        each->menuAction()->setEnabled(each->isEmpty() || std::ranges::any_of(each->actions(), &QAction::isEnabled));
+    enableMenus();
+}
+
+/// Those of which something can be chosen, or that are empty until they are shown.
+void Commands::enableMenus()
+{
+    const auto canBeChosen = [](const QAction *action) { return !action->isSeparator() && action->isEnabled(); };
+    for (QMenu *each : m_menus)
+        each->menuAction()->setEnabled(each->isEmpty() || std::ranges::any_of(each->actions(), canBeChosen));
 }
 
 void Commands::refresh()
 {
     for (const auto &update : m_updates)
         update();
+    enableMenus();
 }
 
 } // namespace faintline

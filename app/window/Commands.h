@@ -63,6 +63,7 @@ public:
     void refresh();
 
 private:
+    void enableMenus();
     QAction *make(const Command &row, QMenu &menu);
 
     QMainWindow &m_window;

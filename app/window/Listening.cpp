@@ -75,7 +75,7 @@ bool Listening::mayLeave(const QString &what)
 
 void Listening::leave()
 {
-    m_isLeaving = true;
+    m_isLeaving = m_run.isRunning(); // it may have ended while the user was asked
     m_run.stop();
 }
 

@@ -245,7 +245,8 @@ void MainWindow::connectDocument()
         const QString path = m_document.sessionPath().isEmpty() ? m_document.sourcePath() : m_document.sessionPath();
         if (!path.isEmpty() && !path.startsWith(QLatin1Char(':')))
             m_memory.addRecent(path);
-        m_opener->offerIq();
+        if (!m_listening->isRunning())
+            m_opener->offerIq();
     });
     for (const auto changed :
          {&Document::opened, &Document::settingsChanged, &Document::analysisChanged, &Document::provisionalChanged,

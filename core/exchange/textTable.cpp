@@ -104,13 +104,13 @@ std::string readTableText(const std::string &path)
     if (!file)
         throw Error(path, std::string("cannot be read: ") + std::strerror(errno));
     if (std::error_code code; std::filesystem::is_directory(path, code))
-        throw Error(path, "is a folder; expected a file of annotations");
+        throw Error(path, "is a folder; expected a table of text");
     std::string text;
     std::vector<char> block(1 << 16);
     while (file.read(block.data(), static_cast<std::streamsize>(block.size())), file.gcount() > 0) {
         text.append(block.data(), std::size_t(file.gcount()));
         if (text.size() > mostBytes)
-            throw Error(path, "is larger than 64 MiB; expected annotations, not samples");
+            throw Error(path, "is larger than 64 MiB; expected a table of text, not samples");
     }
     text = inUtf8(std::move(text));
     unifyLineEnds(text);

@@ -145,7 +145,7 @@ const QMap<QString, Act> &acts()
         {"reset 3", setting("smd.lnK", "-2")},
         {"reset 4", setting("smd.reset", "calibrated")},
         {"choosing-h 2", setting("model.slopeChange", "0.34, 0.33")},
-        {"choosing-h 3", [](MainWindow &window) { clickAt(*window.workbench().output(), 50.0, 250.0); }},
+        {"choosing-h 3", [](MainWindow &window) { clickAt(*window.workbench().output(), 48.0, 250.0); }},
         {"assumed-snr 1", setting("model.snr", "0.063")},
         {"thresholds 1", setting("decide.thresholdNats", "12")},
         {"thresholds 2", dragThresholdTo(5.0)},

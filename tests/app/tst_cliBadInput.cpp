@@ -385,7 +385,7 @@ void tst_cliBadInput::annotationsThatAreNoFile()
 {
     const Outcome told = run(QStringList{"detect", "line.wav", "--annotations", ".", "--events", "o.csv"} + settings);
     QCOMPARE(told.code, 2);
-    QCOMPARE(told.err, QByteArray("error: .: is a folder; expected a file of annotations\n"));
+    QCOMPARE(told.err, QByteArray("error: .: is a folder; expected a table of text\n"));
     QVERIFY(named("o.csv*").isEmpty());
 }
 

@@ -545,7 +545,7 @@ private slots:
         QVERIFY(!errorOf([&] { readAnnotations(path("nowhere"), m_info); }).empty());
         QVERIFY(errorOf([&] {
                     readAnnotations(path("."), m_info);
-                }).ends_with("is a folder; expected a file of annotations"));
+                }).ends_with("is a folder; expected a table of text"));
         QVERIFY(read("empty", "").empty());
     }
 

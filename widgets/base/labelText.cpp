@@ -90,13 +90,13 @@ QLabel *panelSentence()
     return label;
 }
 
-void setScrolledColumn(QWidget &panel, QWidget *column)
+void setScrolledColumn(QWidget &panel, QWidget *column, Qt::ScrollBarPolicy sideways)
 {
     auto *area = new QScrollArea;
     area->setWidget(column);
     area->setWidgetResizable(true);
     area->setFrameShape(QFrame::NoFrame);
-    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    area->setHorizontalScrollBarPolicy(sideways);
     auto *layout = new QVBoxLayout(&panel);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(area);

@@ -45,6 +45,6 @@ QLabel *plainLabel();
 QLabel *panelSentence();
 
 /// Fills a panel with a column, which is scrolled where it is too long.
-void setScrolledColumn(QWidget &panel, QWidget *column);
+void setScrolledColumn(QWidget &panel, QWidget *column, Qt::ScrollBarPolicy sideways = Qt::ScrollBarAlwaysOff);
 
 } // namespace faintline

@@ -35,6 +35,7 @@ SettingRow *FieldFormBase::addRow(const FieldInfo &field, const FieldValue &init
     }
     auto *row = new SettingRow(field, initial);
     row->setLabelWidth(labelWidth);
+    connect(row, &SettingRow::refusalChanged, this, &FieldFormBase::edited);
     section->addRow(row, field.isAdvanced);
     section->offerMore();
     return m_rows[name] = row;
@@ -49,7 +50,13 @@ void FieldFormBase::clearErrors()
 {
     m_error->hide();
     for (SettingRow *row : std::as_const(m_rows))
-        row->setError(QString());
+        if (!row->isRefused())
+            row->setError(QString());
+}
+
+bool FieldFormBase::isRefused() const
+{
+    return std::ranges::any_of(m_rows, &SettingRow::isRefused);
 }
 
 void FieldFormBase::showError(const Error &error)

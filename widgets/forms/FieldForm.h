@@ -30,12 +30,15 @@ class FieldFormBase : public QWidget
 public:
     /// Shows the error under the field that it names, or under the form.
     void showError(const Error &error);
+    /// Except those of refused text.
     void clearErrors();
+    /// Whether the text of a row was refused: the value is not what is written.
+    bool isRefused() const;
     /// The widget that edits a field; null if there is none of this name.
     QWidget *editor(const QString &name) const;
 
 signals:
-    void edited();
+    void edited(); ///< also when text was refused, or no longer is
 
 protected:
     FieldFormBase(const QString &heading, QWidget *parent);
@@ -78,9 +81,9 @@ public:
     void setValue(const S &value)
     {
         m_value = value;
-        clearErrors();
         for (const Field<S> &field : m_fields)
             showValue(field.name, *field.get(value));
+        clearErrors();
     }
 
 private:

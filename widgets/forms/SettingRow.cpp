@@ -241,6 +241,7 @@ void SettingRow::acceptText(const QString &text)
     } catch (const Error &error) {
         setError(QString::fromStdString(error.why()));
         m_isRefused = true;
+        emit refusalChanged();
     }
 }
 
@@ -261,10 +262,13 @@ void SettingRow::stepBy(int steps)
 void SettingRow::accept(const FieldValue &value)
 {
     const bool isSame = value == m_value;
+    const bool wasRefused = m_isRefused;
     setError(QString());
     setValue(value);
     if (!isSame)
         emit edited(value);
+    if (wasRefused)
+        emit refusalChanged();
 }
 
 void SettingRow::setValue(const FieldValue &value)

@@ -24,6 +24,8 @@ public:
     QLabel *label() const { return m_label; }
 
     void setValue(const FieldValue &value);
+    /// Whether the text in the editor was refused, and is not the value.
+    bool isRefused() const { return m_isRefused; }
     void setError(const QString &sentence);
     void setNote(const QString &note);
     void setLabelWidth(int width);
@@ -33,6 +35,7 @@ public:
 
 signals:
     void edited(const faintline::FieldValue &value);
+    void refusalChanged();
 
 protected:
     bool eventFilter(QObject *watched, QEvent *event) override;
