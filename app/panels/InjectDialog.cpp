@@ -10,10 +10,18 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <cmath>
 
 namespace faintline {
 
 namespace {
+
+    /// As many digits as a cell needs.
+    double rounded(double value, double cell)
+    {
+        const double scale = std::pow(10.0, std::ceil(2.0 - std::log10(cell)));
+        return std::round(value * scale) / scale;
+    }
 
     LineSettings initialLine(const RecordingInfo &recording, double startSeconds, double frequencyHz,
                              double windowSeconds)
@@ -24,9 +32,9 @@ namespace {
         LineSettings line;
         line.snrDb = 0.0;
         line.referenceSeconds = windowSeconds;
-        line.startSeconds = std::clamp(startSeconds, 0.0, length);
+        line.startSeconds = std::clamp(rounded(startSeconds, windowSeconds), 0.0, length);
         line.durationSeconds = std::min(longestWindows * windowSeconds, length - line.startSeconds);
-        line.frequencyHz = frequencyHz;
+        line.frequencyHz = rounded(frequencyHz, 1.0 / windowSeconds);
         line.driftHzPerSecond = line.wanderHz = 0.0;
         line.wanderSeconds = wanderWindows * windowSeconds;
         return line;
