@@ -6,8 +6,8 @@ class QWidget;
 
 namespace faintline {
 
-/// Whether any part of a widget is in sight: visible, and within all its ancestors. QWidget::visibleRegion() is empty where children cover a
-/// widget.
+/// Whether any part of a widget is in sight: visible, and within all its ancestors. QWidget::visibleRegion() leaves out
+/// what opaque children cover, so a panel filled by a scroll area has none.
 bool isInSight(const QWidget &widget);
 
 /// Whether a panel is visible, with a signal when it becomes visible.

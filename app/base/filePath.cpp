@@ -5,6 +5,7 @@
 #include "base/oneLine.h"
 #include "widgets/base/labelText.h"
 
+#include <QDir>
 #include <QFile>
 #include <QFileInfo>
 #include <QUrl>
@@ -93,7 +94,8 @@ QString nameBeside(const QString &path, const QString &ending)
     constexpr std::size_t mostBytes = 200; // a file system takes 255, with the ending
     const QFileInfo info(path);
     const QString name = QString::fromStdString(beginning(oneLine(pathBytes(info.completeBaseName())), mostBytes));
-    return info.path() + QLatin1Char('/') + QString(name).replace(QLatin1Char('?'), QLatin1Char('_')) + ending;
+    const QString folder = path.startsWith(QLatin1Char(':')) ? QDir::homePath() : info.path();
+    return folder + QLatin1Char('/') + QString(name).replace(QLatin1Char('?'), QLatin1Char('_')) + ending;
 }
 
 } // namespace faintline

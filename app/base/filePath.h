@@ -30,7 +30,8 @@ QByteArray readBeginning(const QString &path, qint64 mostBytes);
 /// Label for a file name: one line of limited length.
 QString fileLabel(const QString &path);
 
-/// Name of a companion file, "name-events.csv": in the same folder, with a name that any dialog can show and accept.
+/// Name of a companion file, "name-events.csv": in the same folder, of a resource in the user's, with a name that any
+/// dialog can show and accept.
 QString nameBeside(const QString &path, const QString &ending);
 
 } // namespace faintline

@@ -12,7 +12,8 @@ struct Session;
 /// The source that a path of the window denotes, which may be a scene in the program's resources (":/…"). Throws Error.
 Source sourceAt(const QString &path, const OpenOptions &options = {});
 
-/// The session at such a path. One in the resources is an example, which has no file to be saved to: its source has its path. Throws Error.
+/// The session at such a path. One in the resources is an example, which has no file to be saved to: its source has its
+/// path. Throws Error.
 Session sessionAt(const QString &path);
 
 /// Name for window titles: the file's label.

@@ -400,8 +400,8 @@ void LessonGuide::present(bool isPresenting)
     m_isPresenting = isPresenting;
     if (!isPresenting)
         setFormsVisible(true);
-    if (isRunning() && m_isReady
-        && !m_isAtEnd) { // without the presentation, too: the layout before it had other panels
+    // At its end, too: the layout before it may have had other panels in front.
+    if (isRunning() && m_isReady && !m_isAtEnd) {
         for (const QString &name : now().show)
             reveal(widgetNamed(name));
         pointOut(widgetNamed(now().point));

@@ -98,10 +98,7 @@ DopplerPanel::DopplerPanel(Document &document, const EventTable &events, Provena
     column->addWidget(m_notes);
     column->addWidget(m_save, 0, Qt::AlignLeft);
     column->addStretch(1);
-    auto *scroll = new QScrollArea;
-    scroll->setWidget(words);
-    scroll->setWidgetResizable(true);
-    scroll->setFrameShape(QFrame::NoFrame);
+    QScrollArea *scroll = scrolledColumn(words, Qt::ScrollBarAsNeeded);
     scroll->setAccessibleName(tr("Doppler fit"));
     auto *charts = new QSplitter(Qt::Vertical);
     charts->addWidget(m_frequencies);

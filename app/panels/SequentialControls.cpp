@@ -1,6 +1,7 @@
 #include "app/panels/SequentialControls.h"
 
 #include "app/control/SequentialTests.h"
+#include "widgets/base/labelText.h"
 
 #include <QLabel>
 #include <QProgressBar>
@@ -15,11 +16,6 @@ SequentialControls::SequentialControls(SequentialTests &tests, QWidget *parent)
       m_cancel(new QPushButton(tr("Cancel"))), m_onSelection(new QPushButton(tr("Test the visible part"))),
       m_progress(new QProgressBar), m_state(new QLabel)
 {
-    auto *area = new QScrollArea;
-    area->setWidget(m_form);
-    area->setWidgetResizable(true);
-    area->setFrameShape(QFrame::NoFrame);
-    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     m_form->setAccessibleName(tr("Settings of the sequential test"));
     m_progress->setRange(0, 1000);
     m_progress->setTextVisible(false);
@@ -50,7 +46,7 @@ SequentialControls::SequentialControls(SequentialTests &tests, QWidget *parent)
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
-    layout->addWidget(area, 1);
+    layout->addWidget(scrolledColumn(m_form), 1);
     layout->addLayout(below);
 
     connect(&m_tests, &SequentialTests::restarted, this, [this] { showBusy(m_tests.isRunning()); });

@@ -20,11 +20,7 @@ StartColumn::StartColumn(QWidget *form, const QString &progressName, const QStri
       m_progress(new QProgressBar), m_state(new QLabel), m_note(plainLabel())
 {
     constexpr int usualWidth = 330;
-    auto *area = new QScrollArea;
-    area->setWidget(form);
-    area->setWidgetResizable(true);
-    area->setFrameShape(QFrame::NoFrame);
-    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    QScrollArea *area = scrolledColumn(form);
     setFixedWidth(
         std::max(usualWidth, form->minimumSizeHint().width() + area->verticalScrollBar()->sizeHint().width()));
     m_progress->setRange(0, 1000);

@@ -11,7 +11,6 @@
 #include "widgets/pings/TargetLayer.h"
 
 #include <QComboBox>
-#include <QDir>
 #include <QFileDialog>
 #include <QGridLayout>
 #include <QHeaderView>
@@ -240,9 +239,7 @@ void TargetsPanel::save(const QString &path) const
 
 void TargetsPanel::chooseFile()
 {
-    const QString source = m_document.sourcePath();
-    const QString beside = source.startsWith(QLatin1Char(':')) ? QDir::home().filePath(QStringLiteral("scene.json"))
-                                                               : nameBeside(source, QStringLiteral("-scene.json"));
+    const QString beside = nameBeside(m_document.sourcePath(), QStringLiteral("-scene.json"));
     const QString path = pathOf(
         QFileDialog::getSaveFileUrl(this, tr("Save the scene"), QUrl::fromLocalFile(beside), tr("Scenes (*.json)")));
     if (path.isEmpty())

@@ -27,6 +27,7 @@
 #include "app/views/WindowParts.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
+#include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 #include "widgets/base/settingWords.h"
 #include "widgets/events/EventTable.h"
@@ -60,12 +61,7 @@ namespace {
         layout->addWidget(new MainSettings(parts.document(), parts.controller(), MainSettings::dozen()));
         layout->addWidget(all, 0, Qt::AlignLeft);
         layout->addStretch(1);
-        auto *area = new QScrollArea;
-        area->setFrameShape(QFrame::NoFrame);
-        area->setWidgetResizable(true);
-        area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-        area->setWidget(column);
-        return area;
+        return scrolledColumn(column);
     }
 
     QWidget *makeThreshold(WindowParts &parts)

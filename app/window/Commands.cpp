@@ -38,7 +38,8 @@ void Commands::add(const QString &way, std::initializer_list<Command> rows)
         if (row.entries) {
             QMenu *const own = menu(way + QLatin1Char('/') + row.text);
             m_updates.emplace_back([own, entries = row.entries] {
-                qDeleteAll(own->findChildren<QMenu *>(QString(), Qt::FindDirectChildrenOnly)); // which clear() leaves
+                for (QMenu *each : own->findChildren<QMenu *>(QString(), Qt::FindDirectChildrenOnly))
+                    each->deleteLater(); // clear() leaves them
                 own->clear();
                 entries(*own);
             });

@@ -2,6 +2,7 @@
 
 #include "app/base/GestureWatcher.h"
 #include "app/base/MessageBar.h"
+#include "app/base/VisibilityWatcher.h"
 #include "app/base/distinctLabels.h"
 #include "app/base/filePath.h"
 #include "app/base/screenSizes.h"
@@ -72,7 +73,7 @@ namespace {
     {
         for (; widget && !widget->isWindow(); widget = widget->parentWidget())
             if (const auto *dock = qobject_cast<const QDockWidget *>(widget))
-                return dock->visibleRegion().isEmpty();
+                return !isInSight(*dock);
         return false;
     }
 

@@ -23,7 +23,6 @@
 #include "base/files/AtomicFile.h"
 #include "widgets/base/labelText.h"
 
-#include <QDir>
 #include <QDropEvent>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -124,10 +123,7 @@ void Opener::startLesson(const Lesson &lesson)
 void Opener::saveLesson(bool isNew)
 {
     const QString filter = tr("Lessons (*.json)");
-    const QString beside = m_parts.document().sourcePath();
-    const QUrl start =
-        QUrl::fromLocalFile(beside.startsWith(QLatin1Char(':')) ? QDir::home().filePath(QStringLiteral("lesson.json"))
-                                                                : nameBeside(beside, QStringLiteral("-lesson.json")));
+    const QUrl start = QUrl::fromLocalFile(nameBeside(m_parts.document().sourcePath(), QStringLiteral("-lesson.json")));
     const QString path =
         pathOf(isNew ? QFileDialog::getSaveFileUrl(&m_window, tr("New lesson from what is shown"), start, filter)
                      : QFileDialog::getOpenFileUrl(&m_window, tr("Add what is shown to a lesson"),

@@ -1,6 +1,7 @@
 #include "app/window/Panels.h"
 
 #include "app/base/Panel.h"
+#include "app/base/VisibilityWatcher.h"
 #include "app/base/screenSizes.h"
 
 #include <QAction>
@@ -307,10 +308,10 @@ void Panels::toggleMaximised()
     QDockWidget *chosen = nullptr;
     for (QWidget *widget = QApplication::focusWidget(); widget && !chosen; widget = widget->parentWidget())
         chosen = qobject_cast<QDockWidget *>(widget);
-    if (!chosen && m_latest && !m_latest->visibleRegion().isEmpty())
+    if (!chosen && m_latest && isInSight(*m_latest))
         chosen = m_latest;
     for (const Entry &entry : m_entries)
-        if (!chosen && entry.place == Place::Bottom && !entry.dock->visibleRegion().isEmpty())
+        if (!chosen && entry.place == Place::Bottom && isInSight(*entry.dock))
             chosen = entry.dock;
     if (!chosen)
         return;

@@ -24,6 +24,7 @@
 #include <QAbstractItemView>
 #include <QAction>
 #include <QComboBox>
+#include <QDir>
 #include <QGroupBox>
 #include <QLabel>
 #include <QLineEdit>
@@ -417,6 +418,8 @@ void tst_hostileNames::dialogsSuggestNamesOneCanType()
     QCOMPARE(nameBeside(QStringLiteral("/tmp/a.b.wav"), QStringLiteral("-events.csv")),
              QStringLiteral("/tmp/a.b-events.csv"));
     QCOMPARE(nameBeside(pathText("/tmp/a\xff.wav"), QStringLiteral(".html")), QStringLiteral("/tmp/a_.html"));
+    QCOMPARE(nameBeside(QStringLiteral(":/scenarios/a.json"), QStringLiteral(".faintline")),
+             QDir::homePath() + QStringLiteral("/a.faintline")); // nothing can be written beside a resource
     QVERIFY(nameBeside(QStringLiteral("/tmp/") + QString(250, QLatin1Char('x')), QStringLiteral(".html")).size() < 255);
     // Characters of three and four bytes, whose limit lies within one.
     for (const QString &character : {QString(QChar(0x6f22)), QStringLiteral("\U0001F3B5")}) {

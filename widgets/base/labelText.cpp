@@ -90,16 +90,21 @@ QLabel *panelSentence()
     return label;
 }
 
-void setScrolledColumn(QWidget &panel, QWidget *column, Qt::ScrollBarPolicy sideways)
+QScrollArea *scrolledColumn(QWidget *column, Qt::ScrollBarPolicy sideways)
 {
     auto *area = new QScrollArea;
     area->setWidget(column);
     area->setWidgetResizable(true);
     area->setFrameShape(QFrame::NoFrame);
     area->setHorizontalScrollBarPolicy(sideways);
+    return area;
+}
+
+void setScrolledColumn(QWidget &panel, QWidget *column, Qt::ScrollBarPolicy sideways)
+{
     auto *layout = new QVBoxLayout(&panel);
     layout->setContentsMargins(0, 0, 0, 0);
-    layout->addWidget(area);
+    layout->addWidget(scrolledColumn(column, sideways));
 }
 
 } // namespace faintline

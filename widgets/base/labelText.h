@@ -7,6 +7,7 @@
 #include <string>
 
 class QLabel;
+class QScrollArea;
 class QWidget;
 
 namespace faintline {
@@ -44,7 +45,9 @@ QLabel *plainLabel();
 /// The same for sentences; its name is "sentence".
 QLabel *panelSentence();
 
-/// Fills a panel with a column, which is scrolled where it is too long.
+/// An area in which a column is scrolled where it is too long.
+QScrollArea *scrolledColumn(QWidget *column, Qt::ScrollBarPolicy sideways = Qt::ScrollBarAlwaysOff);
+/// Fills a panel with one.
 void setScrolledColumn(QWidget &panel, QWidget *column, Qt::ScrollBarPolicy sideways = Qt::ScrollBarAlwaysOff);
 
 } // namespace faintline
