@@ -437,7 +437,7 @@ void LessonGuide::shareColumn()
 void LessonGuide::widenChart(QWidget *target)
 {
     for (auto *dock : m_window.findChildren<QDockWidget *>(Qt::FindDirectChildrenOnly))
-        if (m_isPresenting && target && dock->isAncestorOf(target) && target->findChild<QwtPlot *>()
+        if (m_isPresenting && target && dock->isAncestorOf(target) && dock->findChild<QwtPlot *>()
             && m_window.dockWidgetArea(dock) == Qt::RightDockWidgetArea
             && m_window.dockWidgetArea(m_dock) == Qt::LeftDockWidgetArea)
             m_window.resizeDocks({dock}, {m_window.width() * panelPercent / 100}, Qt::Horizontal);

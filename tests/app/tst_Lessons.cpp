@@ -203,6 +203,7 @@ private slots:
     void whereOneChartFitsItIsTheOneToLookAt();
     void presentedPanelsOfOtherStepsAreAway();
     void presentedOnASmallScreenItSharesAColumn();
+    void presentedAChartIsAsWideAsTheLesson();
     void presentedTheFormIsLarger();
     void escapeLeavesAPresentationFromAnyField();
     void menuPaletteAndWelcomePageOfferThem();
@@ -759,6 +760,16 @@ void tst_Lessons::presentedOnASmallScreenItSharesAColumn()
     QVERIFY(guide.panel().isVisible());
     QTest::keyClick(window.get(), Qt::Key_F5);
     QCOMPARE(window->dockWidgetArea(guide.dock()), Qt::LeftDockWidgetArea);
+}
+
+void tst_Lessons::presentedAChartIsAsWideAsTheLesson()
+{
+    const auto window = newWindow({1920, 1080});
+    LessonGuide &guide = window->lessonGuide();
+    guide.start(readLesson(":/lessons/thresholds.json"), 1); // points to the plot itself
+    QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+    guide.present(true); // not full screen, which has another size here
+    QTRY_VERIFY2(window->thresholdPlot().width() > 380, qPrintable(QString::number(window->thresholdPlot().width())));
 }
 
 /// On a large screen: also a label that becomes bold. Afterwards everything is as before.
