@@ -8,11 +8,12 @@ using namespace faintline;
 
 int main()
 {
-    // Lines of 50 windows that wander by half a resolution cell, 18 of them in the noise of each run.
-    LineExperiment experiment;
-    experiment.runs = 4;
-    experiment.durationWindows = 50.0;
-    experiment.wanderCells = 0.5;
+    // Lines of 50 windows that wander by half a resolution cell (a window of simulated noise lasts one second), 18 of
+    // them in the noise of each run.
+    Experiment experiment;
+    experiment.trials = 4;
+    experiment.durationSeconds = 50.0;
+    experiment.wanderHz = 0.5;
     experiment.snrDb = {-3.0, 0.0, 3.0};
     experiment.detectors = {peer("SMD 5 slopes", 50.0), peer("3 of 4", 50.0), peer("integrator", 50.0)};
 

@@ -107,12 +107,12 @@ namespace {
         return detectorUnderTest;
     }
 
-    LineExperiment experimentOf(const Table &table, const ReproduceOptions &options)
+    Experiment experimentOf(const Table &table, const ReproduceOptions &options)
     {
-        LineExperiment experiment;
+        Experiment experiment;
         experiment.seed = int(options.seed);
-        experiment.runs = options.quick ? quickRuns : runs;
-        experiment.durationWindows = table.durationWindows;
+        experiment.trials = options.quick ? quickRuns : runs;
+        experiment.durationSeconds = table.durationWindows;
         for (const Row &row : table.rows)
             experiment.detectors.push_back(detectorOf(row.detector, table.durationWindows));
         return experiment;
@@ -122,8 +122,8 @@ namespace {
     std::vector<std::vector<CurvePoint>> measure(const Table &table, const ReproduceOptions &options,
                                                  const RunContext &context)
     {
-        LineExperiment experiment = experimentOf(table, options);
-        std::vector<int> all(std::size_t(experiment.runs));
+        Experiment experiment = experimentOf(table, options);
+        std::vector<int> all(std::size_t(experiment.trials));
         std::iota(all.begin(), all.end(), 0);
         std::vector<std::vector<CurvePoint>> points(table.rows.size());
         const auto add = [&](const RunContext &part) {
@@ -139,7 +139,7 @@ namespace {
         }
         experiment.snrDb = {table.snrDb};
         for (std::size_t i = 0; i < table.columns.size(); ++i) {
-            experiment.wanderCells = table.columns[i];
+            experiment.wanderHz = table.columns[i];
             const auto n = double(table.columns.size());
             add(context.part(double(i) / n, double(i + 1) / n));
         }
@@ -227,10 +227,10 @@ namespace {
 
     Reproduction reproduceBillonFigure1(const ReproduceOptions &options, const RunContext &context)
     {
-        LineExperiment experiment;
+        Experiment experiment;
         experiment.seed = int(options.seed);
-        experiment.runs = 1;
-        experiment.wanderCells = 3.0;
+        experiment.trials = 1;
+        experiment.wanderHz = 3.0;
         experiment.detectors = {detectorOf("SMD 5 slopes", 100.0)};
         const LineTrial trial = remakeTrial(experiment, -1.0, 0, 0);
         const LineTrial noise = remakeTrial(experiment, -200.0, 0, 0);

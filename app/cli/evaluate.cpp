@@ -36,9 +36,8 @@ namespace {
 
     void printSweep(const Campaign &campaign)
     {
-        std::printf("%-28s %8s   %-17s %8s   %12s   %-21s %10s\n",
-                    std::get<SweepExperiment>(campaign.experiment).parameter.c_str(), "Pd", "95 % interval", "trials",
-                    "false alarms/h", "95 % interval", "latency (s)");
+        std::printf("%-28s %8s   %-17s %8s   %12s   %-21s %10s\n", campaign.experiment.parameter.c_str(), "Pd",
+                    "95 % interval", "trials", "false alarms/h", "95 % interval", "latency (s)");
         for (const SweepPoint &point : sweepCurve(campaign))
             std::printf("%-28s %8.4f   %.4f … %.4f   %8lld   %14.4g   %9.4g … %-9.4g %11s\n",
                         formatNumber(point.value).c_str(), point.pd, point.pdInterval.low, point.pdInterval.high,
@@ -48,7 +47,7 @@ namespace {
                                              : "never");
     }
 
-    void printCosts(const SweepExperiment &sweep, const RunContext &context)
+    void printCosts(const Experiment &sweep, const RunContext &context)
     {
         const SweepTrials trials(sweep, openRecordingOf(sweep), context);
         const std::vector<double> seconds = trials.costs(context);
@@ -59,7 +58,7 @@ namespace {
 
     void print(const Campaign &campaign)
     {
-        if (std::holds_alternative<SweepExperiment>(campaign.experiment))
+        if (campaign.experiment.isSweep())
             return printSweep(campaign);
         std::printf("%-28s %8s %8s   %-17s %8s\n", "detector", "SNR (dB)", "Pd", "95 % interval", "trials");
         for (const CurvePoint &point : pdCurve(campaign))
@@ -82,9 +81,9 @@ namespace {
     /// The experiment's SNR at which the ROC is drawn: the given one, else the middle one.
     std::size_t rocSnr(const Experiment &experiment, const EvaluateOptions &options)
     {
-        if (std::holds_alternative<SweepExperiment>(experiment) && options.roc.ends_with(".csv"))
+        if (experiment.isSweep() && options.roc.ends_with(".csv"))
             throw Error(options.roc, "must end in .svg for a sweep, whose false alarms are columns of --out");
-        const std::vector<double> snrs = snrsOf(experiment);
+        const std::vector<double> snrs = experiment.snrDb;
         if (!options.rocSnrDb)
             return snrs.size() / 2;
         const auto found = std::ranges::find(snrs, *options.rocSnrDb);
@@ -145,9 +144,8 @@ namespace {
         inputs.push_back(options.files.front());
         checkNames(options);
         if (options.seed >= 0)
-            setSeed(experiment, options.seed);
-        const auto *sweep = std::get_if<SweepExperiment>(&experiment);
-        if (options.cost && !sweep)
+            experiment.seed = options.seed;
+        if (options.cost && !experiment.isSweep())
             throw Error("--cost", "requires an experiment of kind \"sweep\"");
         rocSnr(experiment, options); // fail before the runs, not after
         const Shard shard = options.shard.empty() ? Shard{} : shardFrom(options.shard);
@@ -164,7 +162,7 @@ namespace {
             writeOutputs(campaign, inputs, options, common);
         }
         if (options.cost)
-            printCosts(*sweep, common.context());
+            printCosts(experiment, common.context());
     }
 
     void evaluate(const EvaluateOptions &options, const Common &common)

@@ -126,7 +126,7 @@ namespace {
         const Experiments::Entry *shown = window.experiments().entry(window.panel<EvaluatePanel>().shown());
         if (!shown || !shown->campaign || shown->isOpen() || !std::regex_match(name, parts, pdPattern()))
             return {};
-        const std::size_t snrs = snrsOf(shown->campaign->experiment).size();
+        const std::size_t snrs = shown->campaign->experiment.snrDb.size();
         const std::size_t detector = std::stoul(parts[1]) - 1, snr = std::stoul(parts[2]) - 1;
         const std::vector<CurvePoint> curve = pdCurve(*shown->campaign);
         const std::size_t point = detector * snrs + snr;

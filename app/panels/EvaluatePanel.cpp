@@ -119,9 +119,7 @@ void EvaluatePanel::followForm()
 /// The experiment that the form would start.
 Experiment EvaluatePanel::ofForm() const
 {
-    if (m_form->isInRecording())
-        return m_form->injection(m_document.sourcePath());
-    return m_form->lines();
+    return m_form->experiment(m_document.sourcePath());
 }
 
 void EvaluatePanel::start()
@@ -131,10 +129,8 @@ void EvaluatePanel::start()
     const bool isInRecording = m_form->isInRecording();
     if (isInRecording && !m_document.recording())
         return emit failed(Error("experiment", "needs an open recording to which lines can be added"));
-    const QString source = m_document.sourceName();
-    show(isInRecording ? m_experiments.start(tr("In %1: %2").arg(source, m_form->name()),
-                                             m_form->injection(m_document.sourcePath()), m_document.recording())
-                       : m_experiments.start(m_form->name(), m_form->lines()));
+    const QString name = isInRecording ? tr("In %1: %2").arg(m_document.sourceName(), m_form->name()) : m_form->name();
+    show(m_experiments.start(name, ofForm(), isInRecording ? m_document.recording() : nullptr));
 }
 
 void EvaluatePanel::cancel()
@@ -181,7 +177,7 @@ void EvaluatePanel::fillSnrs(const Experiments::Entry &entry)
     m_snr->clear();
     if (!entry.campaign)
         return;
-    const std::vector<double> snrs = snrsOf(entry.campaign->experiment);
+    const std::vector<double> snrs = entry.campaign->experiment.snrDb;
     for (const double db : snrs)
         m_snr->addItem(tr("%1 dB").arg(numberText(db, db == std::floor(db) ? 0 : 1)));
     m_snr->setCurrentIndex(int(snrs.size() / 2));

@@ -26,47 +26,38 @@ namespace {
     constexpr std::size_t currentDetectors = 2; ///< with the current settings: the detector alone, and all of `detect`
 
     /// Frames of a block and signals that fit: Billon's geometry, made longer for longer lines.
-    void fitBlocks(LineExperiment &lines)
+    void fitBlocks(Experiment &lines)
     {
         if (lines.signalFrames() <= lines.blockFrames)
             return;
-        const int needed = int(std::ceil((lines.durationWindows + 50.0) * lines.stepsPerWindow));
+        const int needed = int(std::ceil((lines.durationSeconds + 50.0) * lines.stepsPerWindow));
         lines.blockFrames = needed;
         lines.frames = needed * 3 + needed / 2;
     }
 
-    // Before an experiment is opened.
-    const std::vector<double> initialSnrDb{-5.0, -4.0, -3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0};
-
-    LineExperiment initialLines()
+    /// Before an experiment is opened.
+    Experiment initial(Experiment::Kind kind)
     {
-        LineExperiment lines;
-        lines.snrDb = initialSnrDb;
-        return lines;
+        Experiment experiment = Experiment::of(kind);
+        experiment.trials = 20;
+        experiment.snrDb = {-5.0, -4.0, -3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0};
+        return experiment;
     }
 
-    InjectionExperiment initialInjection()
+    FieldForm<Experiment> *formOf(Experiment::Kind kind, std::initializer_list<std::string_view> mainFields)
     {
-        InjectionExperiment injection;
-        injection.snrDb = initialSnrDb;
-        injection.trials = 20;
-        return injection;
+        return new FieldForm<Experiment>(ExperimentForm::tr("Lines"),
+                                         withMainFields(Experiment::fields(kind), mainFields), initial(kind));
     }
 
 } // namespace
 
 ExperimentForm::ExperimentForm(QWidget *parent)
     : QWidget(parent), m_noise(new QComboBox), m_forms(new QStackedWidget),
-      m_lines(new FieldForm<LineExperiment>(
-          tr("Lines"),
-          withMainFields(LineExperiment::fields(), {"snrDb", "durationWindows", "driftCellsPerWindow", "wanderCells",
-                                                    "wanderWindows", "runs", "seed"}),
-          initialLines())),
-      m_injection(new FieldForm<InjectionExperiment>(
-          tr("Lines"),
-          withMainFields(InjectionExperiment::fields(), {"snrDb", "durationSeconds", "driftHzPerSecond", "wanderHz",
-                                                         "wanderSeconds", "trials", "seed", "falseAlarmsPerHour"}),
-          initialInjection())),
+      m_lines(formOf(Experiment::Kind::Lines, {"snrDb", "durationWindows", "driftCellsPerWindow", "wanderCells",
+                                               "wanderWindows", "runs", "seed"})),
+      m_injection(formOf(Experiment::Kind::Injection, {"snrDb", "durationSeconds", "driftHzPerSecond", "wanderHz",
+                                                       "wanderSeconds", "trials", "seed", "falseAlarmsPerHour"})),
       m_grid(new QGridLayout), m_meaning(plainLabel())
 {
     m_noise->addItem(tr("In simulated noise"));
@@ -101,7 +92,7 @@ ExperimentForm::ExperimentForm(QWidget *parent)
     connect(m_noise, &QComboBox::currentIndexChanged, this, &ExperimentForm::suggestInjection);
     connect(m_noise, &QComboBox::currentIndexChanged, this, &ExperimentForm::changed);
     connect(m_injection, &FieldFormBase::edited, this, [this] { m_isInjectionOwn = true; });
-    for (FieldFormBase *form : std::initializer_list<FieldFormBase *>{m_lines, m_injection})
+    for (FieldForm<Experiment> *form : {m_lines, m_injection})
         connect(form, &FieldFormBase::edited, this, &ExperimentForm::changed);
     connect(this, &ExperimentForm::changed, this, &ExperimentForm::showMeaning);
     showMeaning();
@@ -134,17 +125,12 @@ void ExperimentForm::addDetector(QCheckBox *box)
 
 void ExperimentForm::setExperiment(const Experiment &experiment)
 {
-    const auto *lines = std::get_if<LineExperiment>(&experiment);
-    const auto *injection = std::get_if<InjectionExperiment>(&experiment);
-    if (!lines && (!injection || m_windowSeconds <= 0.0))
+    if (experiment.isSweep() || (!experiment.isLines() && m_windowSeconds <= 0.0))
         return;
-    m_noise->setCurrentIndex(lines ? 0 : 1);
-    if (lines)
-        m_lines->setValue(*lines);
-    else
-        m_injection->setValue(*injection);
-    m_isInjectionOwn |= !lines;
-    setDetectors(detectorsOf(experiment));
+    m_noise->setCurrentIndex(experiment.isLines() ? 0 : 1);
+    form().setValue(experiment);
+    m_isInjectionOwn |= !experiment.isLines();
+    setDetectors(experiment.detectors);
 }
 
 void ExperimentForm::setDetectors(const std::vector<DetectorUnderTest> &detectors)
@@ -190,24 +176,30 @@ void ExperimentForm::suggestInjection()
 {
     if (m_windowSeconds <= 0.0 || m_isInjectionOwn)
         return;
-    const LineExperiment &like = m_lines->value();
-    InjectionExperiment injection = m_injection->value();
+    const Experiment &like = m_lines->value();
+    Experiment injection = m_injection->value();
     injection.durationSeconds =
-        m_windowSeconds * std::min(like.durationWindows, std::floor(0.5 * m_recordingSeconds / m_windowSeconds));
-    injection.driftHzPerSecond = like.driftCellsPerWindow / (m_windowSeconds * m_windowSeconds);
-    injection.wanderHz = like.wanderCells / m_windowSeconds;
-    injection.wanderSeconds = like.wanderWindows * m_windowSeconds;
+        m_windowSeconds * std::min(like.durationSeconds, std::floor(0.5 * m_recordingSeconds / m_windowSeconds));
+    injection.driftHzPerSecond = like.driftHzPerSecond / (m_windowSeconds * m_windowSeconds);
+    injection.wanderHz = like.wanderHz / m_windowSeconds;
+    injection.wanderSeconds = like.wanderSeconds * m_windowSeconds;
     m_injection->setValue(injection);
+}
+
+FieldForm<Experiment> &ExperimentForm::form() const
+{
+    return isInRecording() ? *m_injection : *m_lines;
+}
+
+/// T_FT; one second in simulated noise.
+double ExperimentForm::windowSeconds() const
+{
+    return isInRecording() ? m_windowSeconds : 1.0;
 }
 
 double ExperimentForm::durationWindows() const
 {
-    return isInRecording() ? m_injection->value().durationSeconds / m_windowSeconds : m_lines->value().durationWindows;
-}
-
-const std::vector<double> &ExperimentForm::snrDb() const
-{
-    return isInRecording() ? m_injection->value().snrDb : m_lines->value().snrDb;
+    return form().value().durationSeconds / windowSeconds();
 }
 
 bool ExperimentForm::isInRecording() const
@@ -245,21 +237,17 @@ std::vector<DetectorUnderTest> ExperimentForm::chosen() const
     return result;
 }
 
-LineExperiment ExperimentForm::lines() const
+Experiment ExperimentForm::experiment(const QString &recording) const
 {
-    LineExperiment lines = m_lines->value();
-    lines.detectors = chosen();
-    fitBlocks(lines);
-    return lines;
-}
-
-InjectionExperiment ExperimentForm::injection(const QString &recording) const
-{
-    InjectionExperiment injection = m_injection->value();
-    injection.recording = recording.toStdString();
-    injection.settings = m_settings;
-    injection.detectors = chosen();
-    return injection;
+    Experiment experiment = form().value();
+    experiment.detectors = chosen();
+    if (isInRecording()) {
+        experiment.recording = recording.toStdString();
+        experiment.settings = m_settings;
+    } else {
+        fitBlocks(experiment);
+    }
+    return experiment;
 }
 
 QString ExperimentForm::name() const
@@ -268,9 +256,8 @@ QString ExperimentForm::name() const
     for (const DetectorUnderTest &one : chosen())
         detectors << QString::fromStdString(one.name);
     const auto db = [](double value) { return numberText(value, value == std::floor(value) ? 0 : 1); };
-    const auto [lowest, highest] = std::ranges::minmax(snrDb());
-    const double wander =
-        isInRecording() ? m_injection->value().wanderHz * m_windowSeconds : m_lines->value().wanderCells;
+    const auto [lowest, highest] = std::ranges::minmax(form().value().snrDb);
+    const double wander = form().value().wanderHz * windowSeconds();
     return tr("%1 · %2 … %3 dB · %4 T_FT%5")
         .arg(detectors.join(QStringLiteral(", ")), db(lowest), db(highest), numberText(durationWindows(), 0),
              wander > 0.0 ? tr(" · wander %1").arg(numberText(wander, 1)) : QString());
@@ -281,17 +268,13 @@ void ExperimentForm::check() const
 {
     if (chosen().empty())
         throw Error("detectors", tr("choose at least one").toStdString());
-    if (static_cast<FieldFormBase *>(m_forms->currentWidget())->isRefused())
+    if (form().isRefused())
         throw Error("experiment", tr("the marked value must be corrected").toStdString());
-    if (!isInRecording())
-        return checkExperiment(lines());
-    const InjectionExperiment &injection = m_injection->value();
-    checkFields(injection, InjectionExperiment::fields());
-    if (injection.snrDb.empty())
-        throw Error("snrDb", "must hold at least one value");
-    if (injection.durationSeconds > 0.5 * m_recordingSeconds)
+    const Experiment made = experiment({});
+    checkExperiment(made);
+    if (isInRecording() && made.durationSeconds > 0.5 * m_recordingSeconds)
         throw fieldError(
-            "durationSeconds", formatNumber(injection.durationSeconds),
+            "durationSeconds", formatNumber(made.durationSeconds),
             tr("a line must last at most half of what is analysed, %1 s").arg(0.5 * m_recordingSeconds).toStdString());
 }
 
@@ -313,19 +296,17 @@ void ExperimentForm::showMeaning()
                                                .arg(m_windowSeconds, 0, 'g', 3)
                                                .arg(numberText(durationWindows(), 0))
                                          : tr("%1 lines per SNR; one false alarm per block of noise.")
-                                               .arg(m_lines->value().runs * lines().signalsPerRun()));
+                                               .arg(form().value().trials * experiment({}).signalsPerRun()));
 }
 
 void ExperimentForm::setQuick(int runs, const QStringList &detectors, const std::vector<double> &snrDb)
 {
-    LineExperiment quick = m_lines->value();
-    quick.runs = runs;
-    quick.snrDb = snrDb;
-    m_lines->setValue(quick);
-    InjectionExperiment injection = m_injection->value();
-    injection.trials = runs;
-    injection.snrDb = snrDb;
-    m_injection->setValue(injection);
+    for (FieldForm<Experiment> *form : {m_lines, m_injection}) {
+        Experiment quick = form->value();
+        quick.trials = runs;
+        quick.snrDb = snrDb;
+        form->setValue(quick);
+    }
     for (QCheckBox *box : m_detectors)
         box->setChecked(detectors.contains(box->text()));
     emit changed();

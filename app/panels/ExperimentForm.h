@@ -32,8 +32,7 @@ public:
 
     bool isInRecording() const;
     void setInRecording(bool isInRecording);
-    LineExperiment lines() const;
-    InjectionExperiment injection(const QString &recording) const;
+    Experiment experiment(const QString &recording) const; ///< `recording`: path of the open one
     /// "SMD 5 slopes, 3 of 4 · −5 … 3 dB · 100 T_FT".
     QString name() const;
     /// Why it cannot be started; empty if it can.
@@ -50,8 +49,9 @@ private:
     void addDetector(QCheckBox *box);
     void setDetectors(const std::vector<DetectorUnderTest> &detectors);
     void suggestInjection();
+    FieldForm<Experiment> &form() const; ///< the one that is shown
+    double windowSeconds() const;
     double durationWindows() const;
-    const std::vector<double> &snrDb() const;
     std::vector<DetectorUnderTest> chosen() const;
     void check() const;
     void showMeaning();
@@ -62,8 +62,8 @@ private:
     bool m_isInjectionOwn = false; ///< not as suggested for the recording
     QComboBox *m_noise;
     QStackedWidget *m_forms; ///< of both
-    FieldForm<LineExperiment> *m_lines;
-    FieldForm<InjectionExperiment> *m_injection;
+    FieldForm<Experiment> *m_lines;
+    FieldForm<Experiment> *m_injection;
     QGridLayout *m_grid;                     ///< of the detectors, in two columns
     std::vector<QCheckBox *> m_detectors;    ///< two with the current settings, the peers, and m_others
     std::vector<DetectorUnderTest> m_others; ///< of the experiment that is shown

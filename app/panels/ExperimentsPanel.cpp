@@ -189,7 +189,7 @@ static void writeWithOrigin(const Campaign &campaign, const QString &path)
 {
     writeCurve(campaign, pathBytes(path));
     Json json = {{"version", FAINTLINE_VERSION}, {"experiment", toJson(campaign.experiment)}};
-    if (std::ssize(campaign.outcomes) < runCount(campaign.experiment)) // it was stopped
+    if (std::ssize(campaign.outcomes) < campaign.experiment.runs()) // it was stopped
         for (const RunOutcome &outcome : campaign.outcomes)
             json["runs"].push_back(outcome.run);
     writeProvenanceBeside(path, json.dump(2) + "\n");

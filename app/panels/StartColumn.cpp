@@ -90,7 +90,7 @@ void StartColumn::showState(const Experiments::Entry &entry)
 {
     m_cancel->setEnabled(entry.isOpen());
     m_progress->setValue(int(1000.0 * entry.progress));
-    const int runs = entry.campaign ? runCount(entry.campaign->experiment) : 0;
+    const int runs = entry.campaign ? entry.campaign->experiment.runs() : 0;
     const QString done = tr("%1 of %2 runs").arg(entry.runsDone()).arg(runs);
     switch (entry.state) {
     case Experiments::State::Waiting:

@@ -26,7 +26,7 @@ namespace {
     constexpr double samplesOfAWindow = 400.0;   ///< of simulated noise
     constexpr double initialWindowSeconds = 0.5; ///< without a recording
 
-    SweepExperiment linesOf(double windowSeconds, SweepExperiment lines = {})
+    Experiment linesOf(double windowSeconds, Experiment lines = Experiment::of(Experiment::Kind::Sweep))
     {
         lines.sampleRateHz = samplesOfAWindow / windowSeconds;
         lines.durationSeconds = windowsOfALine * windowSeconds;
@@ -78,11 +78,11 @@ namespace {
 SweepForm::SweepForm(QWidget *parent)
     : QWidget(parent), m_parameter(new QComboBox), m_from(new QLineEdit), m_to(new QLineEdit), m_steps(new QSpinBox),
       m_byFactors(new QCheckBox(tr("logarithmic"))), m_noise(new QComboBox),
-      m_lines(new FieldForm<SweepExperiment>(
-          tr("Lines"),
-          withMainFields(SweepExperiment::fields(), {"snrDb", "durationSeconds", "marginSeconds", "driftHzPerSecond",
-                                                     "wanderHz", "wanderSeconds", "trials", "seed"}),
-          linesOf(initialWindowSeconds))),
+      m_lines(new FieldForm<Experiment>(tr("Lines"),
+                                        withMainFields(Experiment::fields(Experiment::Kind::Sweep),
+                                                       {"snrDb", "durationSeconds", "marginSeconds", "driftHzPerSecond",
+                                                        "wanderHz", "wanderSeconds", "trials", "seed"}),
+                                        linesOf(initialWindowSeconds))),
       m_meaning(plainLabel())
 {
     m_steps->setRange(2, 60);
@@ -146,7 +146,7 @@ void SweepForm::setCurrent(const AnalysisSettings &settings, const QString &reco
                             : windowSeconds > 0.0 ? windowSeconds
                                                   : initialWindowSeconds;
         std::exchange(m_usedSeconds, used) != used) {
-        SweepExperiment lines = m_lines->value();
+        Experiment lines = m_lines->value();
         lines.sampleRateHz = samplesOfAWindow / used;
         m_lines->setValue(lines);
     }
@@ -163,7 +163,7 @@ void SweepForm::fillParameters()
         m_parameter->addItem(titleOf(field), QString::fromStdString(field.name));
         m_parameter->setItemData(m_parameter->count() - 1, QString::fromStdString(field.sentence), Qt::ToolTipRole);
     };
-    for (const Field<SweepExperiment> &property : lineProperties())
+    for (const Field<Experiment> &property : lineProperties())
         add(property);
     for (const Field<AnalysisSettings> &field : AnalysisSettings::fields())
         if (isSweepable(field) && field.get(m_settings))
@@ -186,8 +186,8 @@ void SweepForm::setRange(double from, double to, int steps, bool isLogarithmic)
 
 void SweepForm::setLines(double snrDb, double durationSeconds, int trials)
 {
-    SweepExperiment lines = m_lines->value();
-    lines.snrDb = snrDb;
+    Experiment lines = m_lines->value();
+    lines.snrDb = {snrDb};
     lines.durationSeconds = durationSeconds;
     lines.marginSeconds = lines.wanderSeconds = 0.5 * durationSeconds;
     lines.trials = trials;
@@ -195,7 +195,7 @@ void SweepForm::setLines(double snrDb, double durationSeconds, int trials)
     emit changed();
 }
 
-void SweepForm::setExperiment(const SweepExperiment &sweep)
+void SweepForm::setExperiment(const Experiment &sweep)
 {
     if (m_parameter->findData(QString::fromStdString(sweep.parameter)) < 0 || sweep.values.empty())
         return;
@@ -217,7 +217,7 @@ const FieldInfo &SweepForm::field() const
 
 double SweepForm::presentValue(const FieldInfo &info) const
 {
-    for (const Field<SweepExperiment> &property : lineProperties())
+    for (const Field<Experiment> &property : lineProperties())
         if (property.name == info.name)
             return asNumber(*property.get(m_lines->value()));
     const std::optional<FieldValue> held = settingField(info.name).get(m_settings);
@@ -248,11 +248,11 @@ bool SweepForm::isInRecording() const
     return m_noise->currentIndex() == 1;
 }
 
-SweepExperiment SweepForm::experiment() const
+Experiment SweepForm::experiment() const
 {
     if (m_lines->isRefused())
         throw Error("sweep", tr("the marked value must be corrected").toStdString());
-    SweepExperiment sweep = m_lines->value();
+    Experiment sweep = m_lines->value();
     sweep.settings = m_settings;
     sweep.settings.selection = isInRecording() ? m_settings.selection : SelectionSettings();
     sweep.parameter = field().name;
@@ -274,7 +274,7 @@ QString SweepForm::name() const
 void SweepForm::showMeaning()
 {
     try {
-        const SweepExperiment sweep = experiment();
+        const Experiment sweep = experiment();
         QStringList values;
         for (const double value : sweep.values)
             values << text(value);

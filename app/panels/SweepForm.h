@@ -1,6 +1,6 @@
 #pragma once
 
-#include "evaluate/experiments/SweepExperiment.h"
+#include "evaluate/experiments/Experiment.h"
 #include "widgets/forms/FieldForm.h"
 
 class QCheckBox;
@@ -23,10 +23,10 @@ public:
     void setCurrent(const AnalysisSettings &settings, const QString &recording, double windowSeconds);
 
     /// Shows the values of a sweep; all other settings stay those of the window.
-    void setExperiment(const SweepExperiment &sweep);
+    void setExperiment(const Experiment &sweep);
 
     /// The specified experiment. Throws Error if it is invalid.
-    SweepExperiment experiment() const;
+    Experiment experiment() const;
     bool isInRecording() const;
     /// "Threshold 5 … 15 nat, simulated".
     QString name() const;
@@ -56,7 +56,7 @@ private:
     QSpinBox *m_steps;
     QCheckBox *m_byFactors;
     QComboBox *m_noise;
-    FieldForm<SweepExperiment> *m_lines;
+    FieldForm<Experiment> *m_lines;
     QLabel *m_meaning;
 };
 

@@ -15,7 +15,7 @@ namespace faintline {
 namespace {
 
     /// Whether a setting varies, and not a property of the line.
-    bool isOfSetting(const SweepExperiment &sweep)
+    bool isOfSetting(const Experiment &sweep)
     {
         return sweep.parameter.find('.') != std::string::npos;
     }
@@ -94,7 +94,7 @@ std::optional<Experiment> SweepPanel::ofForm() const
 void SweepPanel::start()
 {
     try {
-        const SweepExperiment sweep = m_form->experiment();
+        const Experiment sweep = m_form->experiment();
         show(m_experiments.start(m_form->name(), sweep, m_form->isInRecording() ? m_document.recording() : nullptr));
     } catch (const Error &error) {
         emit failed(error);
@@ -113,9 +113,8 @@ void SweepPanel::show(int id)
     m_costOf = 0;
     m_cost->setChart({});
     if (const Experiments::Entry *entry = m_experiments.entry(id)) {
-        const auto *sweep = entry->campaign ? std::get_if<SweepExperiment>(&entry->campaign->experiment) : nullptr;
-        if (sweep && ofForm() != Experiment(*sweep))
-            m_form->setExperiment(*sweep);
+        if (entry->campaign && ofForm() != entry->campaign->experiment)
+            m_form->setExperiment(entry->campaign->experiment);
         return follow(id);
     }
     for (ChartPlot *chart : {m_tradeOff, m_pd, m_falseAlarms, m_latency})
@@ -126,8 +125,7 @@ void SweepPanel::show(int id)
 void SweepPanel::follow(int id)
 {
     const Experiments::Entry *entry = m_experiments.entry(id);
-    if (id != m_shown || !entry || !entry->campaign
-        || !std::holds_alternative<SweepExperiment>(entry->campaign->experiment))
+    if (id != m_shown || !entry || !entry->campaign || !entry->campaign->experiment.isSweep())
         return;
     m_column->showState(*entry);
     m_column->compare(*entry, ofForm());
@@ -138,7 +136,7 @@ void SweepPanel::follow(int id)
 
 void SweepPanel::showCharts(const Experiments::Entry &entry)
 {
-    const bool isSetting = isOfSetting(std::get<SweepExperiment>(entry.campaign->experiment));
+    const bool isSetting = isOfSetting(entry.campaign->experiment);
     for (ChartPlot *chart : {m_tradeOff, m_pd, m_falseAlarms, m_latency, m_cost})
         chart->setInvitation(isSetting ? tr("click it to apply this value") : QString());
     m_tradeOff->setChart(tradeOffChart(*entry.campaign));
@@ -150,7 +148,7 @@ void SweepPanel::showCharts(const Experiments::Entry &entry)
 void SweepPanel::measureCost(const Experiments::Entry &entry)
 {
     m_costOf = entry.id;
-    m_meter.start([this, sweep = std::get<SweepExperiment>(entry.campaign->experiment),
+    m_meter.start([this, sweep = entry.campaign->experiment,
                    recording = entry.recording](const RunContext &context) -> JobRunner::Delivery {
         const Chart chart =
             costChart(sweep, SweepTrials(sweep, recording ? recording : openRecordingOf(sweep), context.part(0.0, 0.1))
@@ -164,7 +162,7 @@ void SweepPanel::choose(const ChartPlot &chart, std::size_t point)
     const Experiments::Entry *entry = m_experiments.entry(m_shown);
     if (!entry || !entry->campaign)
         return;
-    const auto &sweep = std::get<SweepExperiment>(entry->campaign->experiment);
+    const auto &sweep = entry->campaign->experiment;
     if (!isOfSetting(sweep))
         return;
     if (&chart == m_latency) {

@@ -125,7 +125,7 @@ QString captionOf(const Experiments::Entry &entry)
     QStringList parts{entry.name};
     if (entry.campaign) {
         const Experiment &experiment = entry.campaign->experiment;
-        if (entry.runsDone() < runCount(experiment))
+        if (entry.runsDone() < experiment.runs())
             parts << tr("%1 runs done").arg(entry.runsDone());
         parts << experimentWords(experiment) << detectorsIn(experiment);
     }

@@ -153,7 +153,7 @@ namespace {
             return;
         auto &sweep = parts.panel<SweepPanel>();
         auto &curves = parts.panel<EvaluatePanel>();
-        const bool isSweep = entry->campaign && std::holds_alternative<SweepExperiment>(entry->campaign->experiment);
+        const bool isSweep = entry->campaign && entry->campaign->experiment.isSweep();
         isSweep ? sweep.show(id) : curves.show(id);
         QWidget &shown = isSweep ? static_cast<QWidget &>(sweep) : curves;
         if (!parts.document().isEmpty())

@@ -12,7 +12,7 @@ namespace {
 
     double snrOf(const Campaign &campaign, std::size_t snr)
     {
-        return snrsOf(campaign.experiment)[snr];
+        return campaign.experiment.snrDb[snr];
     }
 
 } // namespace
@@ -83,7 +83,7 @@ void TrialViewer::show(const ShownTrial &trial)
     const QString name = labelText(detector.name);
     const QString db = numberText(snrOf(campaign, m_snr), 1);
     const QString unit = statisticUnit(detector.settings);
-    const bool isLine = std::holds_alternative<LineExperiment>(campaign.experiment);
+    const bool isLine = campaign.experiment.isLines();
     QString sentence;
     if (!detector.isWhole) {
         sentence = outcome.isDetected

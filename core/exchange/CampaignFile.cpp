@@ -151,9 +151,9 @@ namespace {
     /// Every detector and SNR of the experiment must have its answers.
     void checkShape(const Campaign &campaign, const RunOutcome &outcome, const std::string &where)
     {
-        const bool isSweep = std::holds_alternative<SweepExperiment>(campaign.experiment);
+        const bool isSweep = campaign.experiment.isSweep();
         const std::size_t detectors = isSweep ? 1 : detectorsOf(campaign.experiment).size();
-        const std::size_t snrs = snrsOf(campaign.experiment).size();
+        const std::size_t snrs = campaign.experiment.snrDb.size();
         bool isWhole = outcome.noise.size() == detectors && outcome.signal.size() == detectors;
         for (const auto &noise : outcome.noise)
             isWhole = isWhole && (isSweep ? isCount(noise) : !noise.empty());
@@ -172,7 +172,7 @@ namespace {
         std::string csv = "parameter,value,pd,pd_low,pd_high,trials,false_alarms,hours,false_alarms_per_hour,false_"
                           "alarms_low,false_alarms_high,"
                           "latency_s,latency_low,latency_high,threshold\n";
-        const std::string &parameter = std::get<SweepExperiment>(campaign.experiment).parameter;
+        const std::string &parameter = campaign.experiment.parameter;
         for (const SweepPoint &point : sweepCurve(campaign)) {
             csv += parameter;
             for (const double number :
@@ -288,7 +288,7 @@ bool isCurveFile(const std::string &path)
 
 void writeCurve(const Campaign &campaign, const std::string &path)
 {
-    if (std::holds_alternative<SweepExperiment>(campaign.experiment))
+    if (campaign.experiment.isSweep())
         return writeTextFile(path, sweepCsv(campaign));
     std::string csv = std::string(curveHead) + "\n";
     for (const CurvePoint &point : pdCurve(campaign))
@@ -301,12 +301,12 @@ void writeCurve(const Campaign &campaign, const std::string &path)
 
 void writeRoc(const Campaign &campaign, std::size_t snr, const std::string &path)
 {
-    const bool isInBlocks = std::holds_alternative<LineExperiment>(campaign.experiment);
+    const bool isInBlocks = campaign.experiment.isLines();
     std::string csv = "detector,snr_db,threshold,";
     csv += isInBlocks ? "false_alarms_per_block" : "false_alarm_probability";
     csv += ",pd,pd_low,pd_high\n";
     const std::vector<DetectorUnderTest> detectors = detectorsOf(campaign.experiment);
-    const std::string snrDb = formatNumber(snrsOf(campaign.experiment).at(snr));
+    const std::string snrDb = formatNumber(campaign.experiment.snrDb.at(snr));
     for (std::size_t d = 0; d < detectors.size(); ++d)
         for (const RocPoint &point : rocPoints(campaign, d, snr)) {
             csv += csvText(oneLine(detectors[d].name)) + "," + snrDb;

@@ -89,7 +89,7 @@ namespace {
         const Json json = jsonOrFile(given, where);
         Experiment experiment = experimentFromJson(json, where);
         if (seed >= 0)
-            setSeed(experiment, seed);
+            experiment.seed = seed;
         const std::string path = out.is_none() ? std::string() : pathFromPython(out);
         std::vector<std::string> files = filesReadFor(recordingOf(experiment));
         files.push_back(where);
@@ -97,8 +97,7 @@ namespace {
         Campaign campaign;
         runInterruptibly({threads, progress},
                          [&](const RunContext &context) { campaign = carriedOut(experiment, path, context); });
-        return std::holds_alternative<SweepExperiment>(campaign.experiment) ? sweepTable(sweepCurve(campaign))
-                                                                            : curveTable(pdCurve(campaign));
+        return campaign.experiment.isSweep() ? sweepTable(sweepCurve(campaign)) : curveTable(pdCurve(campaign));
     }
 
 } // namespace

@@ -99,7 +99,7 @@ void tst_Evaluation::anExperimentGrowsAndEnds()
     QVERIFY(chart.curves[1].points[0].y > chart.curves[0].points[0].y); // who knows the duration is better
 
     // The same as the library's own answer.
-    Campaign whole{std::get<LineExperiment>(shown().campaign->experiment), {}, {}};
+    Campaign whole{shown().campaign->experiment, {}, {}};
     carryOut(whole, {0, 1, 2});
     QVERIFY(whole.outcomes == shown().campaign->outcomes);
 }
@@ -206,13 +206,13 @@ void tst_Evaluation::curvesComeBackFromFiles()
 /// The form beside the curves of an experiment has its values, and its detectors though they are not the form's own.
 void tst_Evaluation::theFormShowsTheOpenedExperiment()
 {
-    LineExperiment lines;
-    lines.runs = 2;
+    Experiment lines;
+    lines.trials = 2;
     lines.seed = 9;
     lines.snrDb = {-2.0, 0.0, 3.0}; // not equally spaced
     lines.fading = Fading::Rayleigh;
-    lines.durationWindows = 80.0;
-    lines.driftCellsPerWindow = 0.1;
+    lines.durationSeconds = 80.0;
+    lines.driftHzPerSecond = 0.1;
     lines.detectors = {peer("integrator", 80.0), peer("energy", 80.0)};
     lines.detectors.back().name = "one frame";
     ExperimentForm &form = m_window->panel<EvaluatePanel>().form();
@@ -220,7 +220,7 @@ void tst_Evaluation::theFormShowsTheOpenedExperiment()
     m_window->panel<EvaluatePanel>().show(m_window->panel<ExperimentsPanel>().open(
         writeFile(m_folder, "own.json", QByteArray::fromStdString(toJson(lines).dump()))));
     QVERIFY(idle());
-    QVERIFY(form.lines() == lines);
+    QVERIFY(form.experiment({}) == lines);
     QCOMPARE(m_window->panel<EvaluatePanel>().column().note(), QString());
     const auto hasBox = [&] {
         return std::ranges::any_of(form.findChildren<QCheckBox *>(),
@@ -231,7 +231,7 @@ void tst_Evaluation::theFormShowsTheOpenedExperiment()
     m_window->panel<EvaluatePanel>().show(m_window->panel<ExperimentsPanel>().open(
         writeFile(m_folder, "own.json", QByteArray::fromStdString(toJson(lines).dump()))));
     QVERIFY(idle());
-    QVERIFY(form.lines() == lines);
+    QVERIFY(form.experiment({}) == lines);
     QVERIFY(std::ranges::any_of(form.findChildren<QCheckBox *>(),
                                 [](const QCheckBox *box) { return box->text() == "integrator, as opened"; }));
     lines.detectors.front() = peer("integrator", 80.0);
@@ -239,7 +239,7 @@ void tst_Evaluation::theFormShowsTheOpenedExperiment()
     m_window->panel<EvaluatePanel>().show(m_window->panel<ExperimentsPanel>().open(
         writeFile(m_folder, "own.json", QByteArray::fromStdString(toJson(lines).dump()))));
     QVERIFY(idle());
-    QVERIFY(form.lines() == lines);
+    QVERIFY(form.experiment({}) == lines);
     QVERIFY(!hasBox());
 }
 

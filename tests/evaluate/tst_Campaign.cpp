@@ -31,10 +31,10 @@ DetectorUnderTest detectorUnderTest(const char *name, const DetectorSettings &de
     return result;
 }
 
-LineExperiment smallExperiment()
+Experiment smallExperiment()
 {
-    LineExperiment experiment{
-        .runs = 6, .frames = 120, .blockFrames = 60, .snrDb = {-3.0, 3.0}, .durationWindows = 20.0, .wanderCells = 0.5};
+    Experiment experiment{
+        .trials = 6, .frames = 120, .blockFrames = 60, .snrDb = {-3.0, 3.0}, .durationSeconds = 20.0, .wanderHz = 0.5};
     experiment.detectors = {
         detectorUnderTest("SMD", SmdSettings{SmdSettings::Reset::Fixed, 0.69}),
         detectorUnderTest("3 of 4", PofNSettings{3, 4}),
@@ -65,7 +65,7 @@ class tst_Campaign : public QObject
 private slots:
     void threadsAndOrderChangeNothing()
     {
-        const LineExperiment experiment = smallExperiment();
+        const Experiment experiment = smallExperiment();
         const auto one = LineTrials(experiment).run({0, 1, 2, 3}, onThreads(1));
         QVERIFY(LineTrials(experiment).run({0, 1, 2, 3}, onThreads(3)) == one);
         const auto other = LineTrials(experiment).run({3, 1}, onThreads(2));
@@ -98,13 +98,13 @@ private slots:
         QVERIFY_EXCEPTION_THROWN(merge(parts), Error);          // a shard is missing
         QVERIFY_EXCEPTION_THROWN(merge({whole, whole}), Error); // twice the same
         Campaign foreign = whole;
-        setSeed(foreign.experiment, 99);
+        foreign.experiment.seed = 99;
         QVERIFY_EXCEPTION_THROWN(merge({whole, foreign}), Error);
     }
 
     void namesOfDetectorsInACurve()
     {
-        LineExperiment experiment = smallExperiment();
+        Experiment experiment = smallExperiment();
         experiment.detectors = {detectorUnderTest("a\",9\n\"b\",1,1,1,1,1,1", PofNSettings{3, 4})};
         Campaign campaign{experiment, {}, {}};
         carryOut(campaign, firstRuns(1));
@@ -136,7 +136,7 @@ private slots:
         QVERIFY(resumed.outcomes == whole.outcomes);
         QVERIFY(readCampaign(out + ".part").outcomes.size() == 6);
         Experiment other = experiment;
-        setSeed(other, 2);
+        other.seed = 2;
         QVERIFY_EXCEPTION_THROWN(carryOutResumably(other, {0}, out), Error);
         removeParts(out);
         QVERIFY(!QFile::exists(QString::fromStdString(out + ".part")));
@@ -168,8 +168,8 @@ private slots:
 
     void everyTrialCanBeMadeAgain()
     {
-        LineExperiment experiment = smallExperiment();
-        experiment.wanderCells = 0.0;
+        Experiment experiment = smallExperiment();
+        experiment.wanderHz = 0.0;
         experiment.detectors = {detectorUnderTest("energy", EnergySettings{})};
         const RunOutcome outcome = LineTrials(experiment).run({2}).front();
         for (const int signal : {0, 3, experiment.signalsPerRun() - 1}) {
@@ -186,7 +186,7 @@ private slots:
 
     void billonsEstimateByHand()
     {
-        LineExperiment experiment;
+        Experiment experiment;
         experiment.snrDb = {0.0};
         RunOutcome outcome;
         outcome.noise = {{1.0f, 2.0f, 3.0f}};
@@ -200,7 +200,7 @@ private slots:
 
     void thresholdsAndRoc()
     {
-        LineExperiment experiment;
+        Experiment experiment;
         experiment.snrDb = {0.0};
         RunOutcome outcome;
         outcome.noise = {{4.0f, 1.0f, 3.0f, 2.0f}};
@@ -218,7 +218,7 @@ private slots:
 
     void strongLinesAreFoundAndAbsentOnesNot()
     {
-        LineExperiment experiment = smallExperiment();
+        Experiment experiment = smallExperiment();
         experiment.snrDb = {-40.0, 15.0};
         Campaign campaign{experiment, {}, {}};
         carryOut(campaign, {0, 1, 2}, onThreads(2));
@@ -232,7 +232,7 @@ private slots:
     {
         const Experiment lines = smallExperiment();
         QVERIFY(experimentFromJson(toJson(lines), "test") == lines);
-        InjectionExperiment injection;
+        Experiment injection = Experiment::of(Experiment::Kind::Injection);
         injection.recording = "a.wav";
         injection.settings.spectrogram.windowSeconds = 0.5;
         injection.detectors = {detectorUnderTest("SMD", SmdSettings{})};
@@ -243,7 +243,7 @@ private slots:
 
     void injectedIntoARecording()
     {
-        InjectionExperiment injection = injectionIntoNoise();
+        Experiment injection = injectionIntoNoise();
         injection.trials = 6;
         injection.settings.spectrogram.windowSeconds = 0.5;
         injection.detectors = {detectorUnderTest("energy", EnergySettings{}),
@@ -262,7 +262,7 @@ private slots:
 
     void detectItselfInSimulatedNoise()
     {
-        LineExperiment experiment = smallExperiment();
+        Experiment experiment = smallExperiment();
         experiment.frames = 240;
         experiment.snrDb = {-40.0, 10.0};
         experiment.detectors = {{"detect", {}, true}};
@@ -283,7 +283,7 @@ private slots:
     // P of N decides by a mean power, whose unit is not that of its tracks' paths.
     void marginsAreInTheDetectorsUnit()
     {
-        LineExperiment experiment = smallExperiment();
+        Experiment experiment = smallExperiment();
         experiment.frames = 240;
         experiment.snrDb = {10.0};
         experiment.detectors = {detectorUnderTest("3 of 4", PofNSettings{3, 4})};
@@ -300,7 +300,7 @@ private slots:
     // The mean number per block, from the blocks without any.
     void detectItselfIsOrderedOneFalseAlarmPerBlock()
     {
-        LineExperiment experiment = smallExperiment();
+        Experiment experiment = smallExperiment();
         experiment.frames = 1200;
         experiment.snrDb = {-40.0};
         experiment.detectors = {{"detect", {}, true}};
@@ -319,7 +319,7 @@ private slots:
 
     void detectItselfInARecording()
     {
-        InjectionExperiment injection = injectionIntoNoise();
+        Experiment injection = injectionIntoNoise();
         injection.trials = 4;
         injection.marginSeconds = 30.0;
         injection.detectors = {detectorUnderTest("energy", EnergySettings{}), {"detect", {}, true}};
@@ -345,8 +345,11 @@ private slots:
         LineSettings tone{.snrDb = 25.0, .referenceSeconds = 0.5, .frequencyHz = 50.0};
         scene.lines = {tone};
         writeRecording(SimulatedRecording(scene), path("tone.wav"), WrittenType::Float32);
-        InjectionExperiment injection{
-            .recording = path("tone.wav"), .trials = 12, .snrDb = {-30.0, 15.0}, .durationSeconds = 20.0};
+        Experiment injection = Experiment::of(Experiment::Kind::Injection);
+        injection.recording = path("tone.wav");
+        injection.trials = 12;
+        injection.snrDb = {-30.0, 15.0};
+        injection.durationSeconds = 20.0;
         injection.settings.spectrogram.windowSeconds = 0.5;
         injection.detectors = {detectorUnderTest("energy", EnergySettings{}),
                                detectorUnderTest("3 of 4", PofNSettings{3, 4}),
@@ -411,11 +414,11 @@ private slots:
     void aBlockThatEndsAfterItsLineCounts()
     {
         // A line as long as a block has half of itself at least in one of two, and the second one ends after it.
-        LineExperiment experiment{.runs = 3,
-                                  .frames = 600,
-                                  .snrDb = {6.0},
-                                  .durationWindows = 40.0,
-                                  .detectors = {detectorUnderTest("block Viterbi", BlockViterbiSettings{40.0})}};
+        Experiment experiment{.trials = 3,
+                              .frames = 600,
+                              .snrDb = {6.0},
+                              .durationSeconds = 40.0,
+                              .detectors = {detectorUnderTest("block Viterbi", BlockViterbiSettings{40.0})}};
         Campaign campaign{experiment, {}, {}};
         carryOut(campaign, firstRuns(3), onThreads(2));
         for (const RunOutcome &outcome : campaign.outcomes)
@@ -458,10 +461,10 @@ private:
     std::string path(const char *name) const { return m_folder.filePath(name).toStdString(); }
 
     /// Lines far below and far above the noise.
-    InjectionExperiment injectionIntoNoise() const
+    Experiment injectionIntoNoise() const
     {
         LineScene scene{.sampleRateHz = 500.0, .durationSeconds = 240.0};
-        InjectionExperiment injection;
+        Experiment injection = Experiment::of(Experiment::Kind::Injection);
         injection.recording = path("noise.wav");
         writeRecording(SimulatedRecording(scene), injection.recording, WrittenType::Float32);
         injection.snrDb = {-30.0, 12.0};

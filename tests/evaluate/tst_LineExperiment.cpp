@@ -1,4 +1,4 @@
-#include "evaluate/experiments/LineExperiment.h"
+#include "evaluate/experiments/Experiment.h"
 #include "support/test.h"
 
 #include "evaluate/experiments/LineTrials.h"
@@ -14,19 +14,19 @@ using namespace faintline::test;
 
 namespace {
 
-LineExperiment experiment(std::vector<DetectorUnderTest> detectors)
+Experiment experiment(std::vector<DetectorUnderTest> detectors)
 {
-    LineExperiment made;
+    Experiment made;
     made.frames = 130; // ten frames beyond the second row of blocks
     made.blockFrames = 60;
-    made.durationWindows = 10.0;
+    made.durationSeconds = 10.0;
     made.snrDb = {-6.0, 4.0};
     made.detectors = std::move(detectors);
     return made;
 }
 
 /// Power of each line in each of its frames, where it is strongest, over that of a constant line.
-std::vector<std::vector<double>> relativePowers(LineExperiment made, Fluctuation fluctuation)
+std::vector<std::vector<double>> relativePowers(Experiment made, Fluctuation fluctuation)
 {
     const NoisyField constant = makeField(made, 1);
     made.fluctuation = fluctuation;
@@ -42,14 +42,14 @@ std::vector<std::vector<double>> relativePowers(LineExperiment made, Fluctuation
     return powers;
 }
 
-LineExperiment separateFrames()
+Experiment separateFrames()
 {
-    LineExperiment made = experiment({peer("energy", 10.0)});
+    Experiment made = experiment({peer("energy", 10.0)});
     made.stepsPerWindow = 1;
     return made;
 }
 
-LineExperiment fadingAndFluctuating(LineExperiment made)
+Experiment fadingAndFluctuating(Experiment made)
 {
     made.fading = Fading::Rayleigh;
     made.fluctuation = Fluctuation::Swerling1;
@@ -67,7 +67,7 @@ private slots:
     // One frame's energy is its own statistic: D is y.
     void outcomesAreTheLargestOfTheirCells()
     {
-        const LineExperiment made = experiment({peer("energy", 10.0)});
+        const Experiment made = experiment({peer("energy", 10.0)});
         const std::vector<RunOutcome> outcomes = LineTrials(made).run({7, 2});
         QCOMPARE(outcomes.size(), std::size_t(2));
         for (const RunOutcome &outcome : outcomes) {
@@ -97,7 +97,7 @@ private slots:
     // A mean over one window of half a window's steps: two frames of the same bin.
     void everyOtherFrameAlone()
     {
-        LineExperiment made = experiment({peer("integrator", 1.0)});
+        Experiment made = experiment({peer("integrator", 1.0)});
         made.snrDb = {0.0};
         const RunOutcome outcome = LineTrials(made).run({3}).front();
         const NoisyField field = makeField(made, 3);
@@ -148,7 +148,7 @@ private slots:
 
     void sinksSeeEveryRunOnce()
     {
-        const LineExperiment made = experiment({peer("energy", 10.0)});
+        const Experiment made = experiment({peer("energy", 10.0)});
         RunContext context;
         context.threads = 3;
         std::vector<RunOutcome> seen;
@@ -169,7 +169,7 @@ private slots:
 
     void resetsAreFoundForMarkovDetectorsAlone()
     {
-        LineExperiment made = experiment({peer("SMD stable", 10.0), peer("energy", 10.0), peer("SMD 5 slopes", 10.0)});
+        Experiment made = experiment({peer("SMD stable", 10.0), peer("energy", 10.0), peer("SMD 5 slopes", 10.0)});
         made.frames = 600;
         made.binsPerCell = 1;
         const std::vector<ResetRule> rules = LineTrials(made).resets();
@@ -177,7 +177,7 @@ private slots:
         QCOMPARE(rules[1].lnK, 0.0);
         // Of three equal chances each step costs ln 3 nat, which K gives back where there is a choice of slopes.
         QVERIFY(rules[0].lnK < 0.0 && rules[2].lnK > 0.0);
-        LineExperiment other = made;
+        Experiment other = made;
         other.detectors = {peer("SMD stable", 10.0)};
         QCOMPARE(LineTrials(other).resets().front().lnK, rules[0].lnK); // whatever else is tried
         other.seed = 2;
@@ -188,7 +188,7 @@ private slots:
     // K is of the detector on noise: how long an experiment's runs are does not matter to it.
     void resetsOfShortRunsAreThoseOfLongOnes()
     {
-        LineExperiment made = experiment({peer("SMD stable", 10.0), peer("SMD 5 slopes", 10.0)});
+        Experiment made = experiment({peer("SMD stable", 10.0), peer("SMD 5 slopes", 10.0)});
         made.frames = 1000;
         made.binsPerCell = 1;
         const std::vector<ResetRule> expected = LineTrials(made).resets();
@@ -219,15 +219,15 @@ private slots:
 
     void countsOfBlocks()
     {
-        LineExperiment made;
+        Experiment made;
         QCOMPARE(made.bins(), 1000);
         QCOMPARE(made.blocksInTime(), 6); // 2000 of 300 frames, the rest is left over
         QCOMPARE(made.blocksInFrequency(), 5);
         QCOMPARE(made.signalsPerRun(), 30);
         QCOMPARE(made.signalFrames(), 200);
-        made.durationWindows = 0.75;
+        made.durationSeconds = 0.75;
         QCOMPARE(made.signalFrames(), 2); // one and a half
-        made.durationWindows = 0.7;
+        made.durationSeconds = 0.7;
         QCOMPARE(made.signalFrames(), 1);
     }
 
@@ -259,7 +259,7 @@ private slots:
     {
         QFETCH(QString, member);
         QFETCH(QString, words);
-        LineExperiment made = experiment({peer("energy", 10.0)});
+        Experiment made = experiment({peer("energy", 10.0)});
         QCOMPARE(errorOf([&] { checkExperiment(made); }), std::string());
         if (member == "detectors")
             made.detectors.clear();
@@ -272,11 +272,11 @@ private slots:
         else if (member == "blockFrames")
             made.blockFrames = 131;
         else if (member == "durationWindows")
-            made.durationWindows = 30.5;
+            made.durationSeconds = 30.5;
         else if (member == "fluctuation")
             made = fadingAndFluctuating(made);
         else
-            made.driftCellsPerWindow = 4.7; // 47 cells in ten windows, where 46 have room
+            made.driftHzPerSecond = 4.7; // 47 cells in ten windows, where 46 have room
         QCOMPARE(QString::fromStdString(errorOf([&] { checkExperiment(made); })), words);
     }
 };

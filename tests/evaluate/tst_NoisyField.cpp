@@ -10,12 +10,12 @@ using namespace faintline;
 
 namespace {
 
-constexpr int samplesPerWindow = LineExperiment::windowSamples;
+constexpr int samplesPerWindow = Experiment::windowSamples;
 
 /// Two blocks in time, each as wide as the band, so that no line leaks into another's.
-LineExperiment experiment()
+Experiment experiment()
 {
-    return {.seed = 3, .frames = 120, .blockFrames = 60, .blockBins = samplesPerWindow * 4, .durationWindows = 20.0};
+    return {.seed = 3, .frames = 120, .blockFrames = 60, .blockBins = samplesPerWindow * 4, .durationSeconds = 20.0};
 }
 
 double powerAt(const std::vector<std::complex<float>> &field, Index frame, Index bin)
@@ -47,7 +47,7 @@ private slots:
         QFETCH(int, stepsPerWindow);
         QFETCH(int, binsPerCell);
         QFETCH(int, window);
-        LineExperiment made{
+        Experiment made{
             .frames = 3, .stepsPerWindow = stepsPerWindow, .binsPerCell = binsPerCell, .window = WindowShape(window)};
         const int hop = samplesPerWindow / stepsPerWindow;
         std::vector<float> samples(std::size_t(2 * (2 * hop + samplesPerWindow)));
@@ -79,7 +79,7 @@ private slots:
 
     void noiseHasUnitPowerInEveryBin()
     {
-        LineExperiment made = experiment();
+        Experiment made = experiment();
         made.frames = 1200;
         made.window = WindowShape::Hann;
         NoisyField field;
@@ -99,7 +99,7 @@ private slots:
 
     void runsHaveNoiseOfTheirOwn()
     {
-        LineExperiment made = experiment();
+        Experiment made = experiment();
         const NoisyField first = makeField(made, 4);
         NoisyField alone;
         makeNoise(made, 4, alone);
@@ -115,9 +115,9 @@ private slots:
 
     void linesLieInTheirBlocks()
     {
-        LineExperiment made = experiment();
+        Experiment made = experiment();
         made.blockBins = 200;
-        made.wanderCells = 2.0;
+        made.wanderHz = 2.0;
         QCOMPARE(made.signalsPerRun(), 10);
         for (int run = 0; run < 10; ++run) {
             const NoisyField field = makeField(made, run);
@@ -135,7 +135,7 @@ private slots:
     // Between bins, at most an eighth of a resolution cell away, a rectangular window sees sinc² of it.
     void aSteadyLineFillsItsBinWithItsPower()
     {
-        const LineExperiment made = experiment();
+        const Experiment made = experiment();
         const double eighth = std::numbers::pi / 8.0;
         const double least = std::pow(std::sin(eighth) / eighth, 2.0);
         for (int run = 0; run < 5; ++run) {
@@ -158,9 +158,9 @@ private slots:
 
     void aDriftingLineMovesAsItDrifts()
     {
-        LineExperiment made = experiment();
+        Experiment made = experiment();
         for (const double drift : {0.5, -0.5}) { // cells a window: one bin a frame
-            made.driftCellsPerWindow = drift;
+            made.driftHzPerSecond = drift;
             for (int run = 0; run < 5; ++run)
                 for (const Place &place : makeField(made, run).places)
                     for (Index k = 0; k < 39; ++k) {

@@ -11,9 +11,9 @@ using namespace faintline;
 
 namespace {
 
-LineExperiment twoSnrs()
+Experiment twoSnrs()
 {
-    LineExperiment made;
+    Experiment made;
     made.snrDb = {-2.0, 1.0};
     return made;
 }

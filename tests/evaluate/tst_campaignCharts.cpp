@@ -35,17 +35,17 @@ private slots:
     {
         const auto curvesWith = [](auto change) {
             Campaign changed = campaign();
-            change(std::get<LineExperiment>(changed.experiment));
+            change(changed.experiment);
             return pdChart(changed).curves.size();
         };
-        QCOMPARE(curvesWith([](LineExperiment &) {}), std::size_t(3));
-        QCOMPARE(curvesWith([](LineExperiment &lines) { lines.wanderCells = 1.0; }), std::size_t(2));
-        QCOMPARE(curvesWith([](LineExperiment &lines) { lines.fading = Fading::Rayleigh; }), std::size_t(2));
-        QCOMPARE(curvesWith([](LineExperiment &lines) { lines.durationWindows = 50.0; }), std::size_t(2));
-        QCOMPARE(curvesWith([](LineExperiment &lines) { lines.window = WindowShape::Hann; }), std::size_t(2));
+        QCOMPARE(curvesWith([](Experiment &) {}), std::size_t(3));
+        QCOMPARE(curvesWith([](Experiment &lines) { lines.wanderHz = 1.0; }), std::size_t(2));
+        QCOMPARE(curvesWith([](Experiment &lines) { lines.fading = Fading::Rayleigh; }), std::size_t(2));
+        QCOMPARE(curvesWith([](Experiment &lines) { lines.durationSeconds = 50.0; }), std::size_t(2));
+        QCOMPARE(curvesWith([](Experiment &lines) { lines.window = WindowShape::Hann; }), std::size_t(2));
         // Frames that overlap two windows hold parts of two powers.
-        QCOMPARE(curvesWith([](LineExperiment &lines) { lines.fluctuation = Fluctuation::Swerling2; }), std::size_t(2));
-        QCOMPARE(curvesWith([](LineExperiment &lines) {
+        QCOMPARE(curvesWith([](Experiment &lines) { lines.fluctuation = Fluctuation::Swerling2; }), std::size_t(2));
+        QCOMPARE(curvesWith([](Experiment &lines) {
                      lines.fluctuation = Fluctuation::Swerling2;
                      lines.stepsPerWindow = 1;
                  }),
@@ -55,7 +55,7 @@ private slots:
     void theoryOfFluctuatingLines()
     {
         Campaign changed = campaign();
-        std::get<LineExperiment>(changed.experiment).fluctuation = Fluctuation::Swerling3;
+        changed.experiment.fluctuation = Fluctuation::Swerling3;
         const Curve theory = pdChart(changed).curves.at(2);
         QCOMPARE(theory.name, std::string("integrator, Swerling 3"));
         QCOMPARE(theory.points.front().y,
@@ -110,8 +110,8 @@ private:
     /// Two detectors, two SNRs, one run of six blocks: noise maxima 1 … 6, signals 3.5 throughout at 0 dB, 9 at 3 dB.
     static Campaign campaign()
     {
-        LineExperiment lines{.runs = 1, .snrDb = {0.0, 3.0}};
-        lines.detectors = {peer("integrator", lines.durationWindows), peer("3 of 4", lines.durationWindows)};
+        Experiment lines{.trials = 1, .snrDb = {0.0, 3.0}};
+        lines.detectors = {peer("integrator", lines.durationSeconds), peer("3 of 4", lines.durationSeconds)};
         RunOutcome outcome;
         outcome.noise.assign(2, {1, 2, 3, 4, 5, 6});
         outcome.signal.assign(2, {std::vector<float>(6, 3.5f), std::vector<float>(6, 9.0f)});

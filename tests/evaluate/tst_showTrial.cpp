@@ -18,11 +18,11 @@ class tst_showTrial : public QObject
 private slots:
     void initTestCase()
     {
-        LineExperiment lines{.runs = 1,
-                             .frames = 300,
-                             .snrDb = {6.0},
-                             .durationWindows = 40.0,
-                             .detectors = {peer("SMD stable", 40.0), peer("integrator", 40.0), peer("3 of 4", 40.0)}};
+        Experiment lines{.trials = 1,
+                         .frames = 300,
+                         .snrDb = {6.0},
+                         .durationSeconds = 40.0,
+                         .detectors = {peer("SMD stable", 40.0), peer("integrator", 40.0), peer("3 of 4", 40.0)}};
         m_campaign.experiment = lines;
         carryOut(m_campaign, {0});
     }
@@ -79,7 +79,7 @@ private slots:
 
     void anInjectionNeedsItsRecording()
     {
-        InjectionExperiment injection;
+        Experiment injection = Experiment::of(Experiment::Kind::Injection);
         injection.detectors = {peer("3 of 4", 40.0)};
         const Campaign elsewhere{injection, {3.0}, {}};
         QVERIFY(trialsOf(elsewhere, {0, 0}).empty());

@@ -92,20 +92,20 @@ void verifyShare(std::int64_t found, std::int64_t trials, double pd, const QStri
 }
 
 /// Lines of twenty windows in frames that do not overlap, twenty in a run.
-LineExperiment lineExperiment(Fluctuation fluctuation)
+Experiment lineExperiment(Fluctuation fluctuation)
 {
     return {.seed = 5,
             .frames = 60,
             .blockFrames = 30,
             .blockBins = 100,
             .stepsPerWindow = 1,
-            .durationWindows = 20.0,
+            .durationSeconds = 20.0,
             .fluctuation = fluctuation};
 }
 
 /// Mean power of a line's own cells over its frames.
 template <class PowerAt>
-double meanAlong(const LineExperiment &lines, const Place &place, PowerAt powerAt)
+double meanAlong(const Experiment &lines, const Place &place, PowerAt powerAt)
 {
     double sum = 0.0;
     for (std::size_t k = 0; k < place.bins.size(); ++k)
@@ -247,7 +247,7 @@ private slots:
         for (int run = 0; run < runs; ++run)
             constant.push_back(makeField(lineExperiment(Fluctuation::None), run));
         for (const Fluctuation fluctuation : fluctuating) {
-            const LineExperiment lines = lineExperiment(fluctuation);
+            const Experiment lines = lineExperiment(fluctuation);
             std::int64_t found = 0;
             std::int64_t trials = 0;
             double pd = 0.0;

@@ -1,7 +1,5 @@
 #include "evaluate/experiments/Campaign.h"
-#include "evaluate/experiments/InjectionExperiment.h"
-#include "evaluate/experiments/LineExperiment.h"
-#include "evaluate/experiments/SweepExperiment.h"
+#include "evaluate/experiments/Experiment.h"
 #include "exchange/survey/surveySchema.h"
 #include "scene/LineScene.h"
 #include "scene/PingScene.h"
@@ -45,9 +43,8 @@ QString rangeOf(const FieldInfo &info)
 
 /// What a page has to say of a struct's keys.
 template <class S>
-QStringList rowsOf(const std::vector<Field<S>> &fields)
+QStringList rowsOf(const std::vector<Field<S>> &fields, const S &defaults = S())
 {
-    const S defaults;
     QStringList rows;
     for (const Field<S> &field : fields) {
         const auto value = field.get(defaults);
@@ -57,6 +54,11 @@ QStringList rowsOf(const std::vector<Field<S>> &fields)
                          QString::fromStdString(field.sentence));
     }
     return rows;
+}
+
+QStringList rowsOf(Experiment::Kind kind)
+{
+    return rowsOf(Experiment::fields(kind), Experiment::of(kind));
 }
 
 /// The keys that a parser knows, from what it says of one that it does not.
@@ -103,9 +105,9 @@ private slots:
         QTest::newRow("PingLeg") << "scenes.md" << rowsOf(PingLeg::fields());
         QTest::newRow("Reverberation") << "scenes.md" << rowsOf(Reverberation::fields());
         QTest::newRow("ScanScene") << "scenes.md" << rowsOf(ScanScene::fields());
-        QTest::newRow("LineExperiment") << "experiments.md" << rowsOf(LineExperiment::fields());
-        QTest::newRow("InjectionExperiment") << "experiments.md" << rowsOf(InjectionExperiment::fields());
-        QTest::newRow("SweepExperiment") << "experiments.md" << rowsOf(SweepExperiment::fields());
+        QTest::newRow("LineExperiment") << "experiments.md" << rowsOf(Experiment::Kind::Lines);
+        QTest::newRow("InjectionExperiment") << "experiments.md" << rowsOf(Experiment::Kind::Injection);
+        QTest::newRow("SweepExperiment") << "experiments.md" << rowsOf(Experiment::Kind::Sweep);
     }
 
     void keysWithTheirRanges()
@@ -130,14 +132,12 @@ private slots:
                                      Json{{"axes", Json::array()}});
         const auto withEntries = [](const char *kind) { return Json{{"kind", kind}}; };
         QTest::newRow("injection") << "experiments.md"
-                                   << knownTo([](const Json &json) { injectionExperimentFromJson(json, {}); },
+                                   << knownTo([](const Json &json) { experimentFromJson(json, {}); },
                                               withEntries("injection"));
         QTest::newRow("sweep") << "experiments.md"
-                               << knownTo([](const Json &json) { sweepExperimentFromJson(json, {}); },
-                                          withEntries("sweep"));
+                               << knownTo([](const Json &json) { experimentFromJson(json, {}); }, withEntries("sweep"));
         QTest::newRow("lines") << "experiments.md"
-                               << knownTo([](const Json &json) { lineExperimentFromJson(json, {}); },
-                                          withEntries("lines"));
+                               << knownTo([](const Json &json) { experimentFromJson(json, {}); }, withEntries("lines"));
         QTest::newRow("lineScene") << "scenes.md"
                                    << knownTo([](const Json &json) { lineSceneFromJson(json); }, withEntries("lines"));
         QTest::newRow("pingScene") << "scenes.md"

@@ -1,13 +1,9 @@
 #include "evaluate/experiments/Campaign.h"
 
 #include "base/Error.h"
-#include "base/Overloaded.h"
-#include "base/files/fileName.h"
-#include "base/wholeNumber.h"
 #include "evaluate/experiments/InjectionTrials.h"
 #include "evaluate/experiments/LineTrials.h"
 #include "evaluate/experiments/SweepTrials.h"
-#include "signal/openRecording.h"
 
 #include <algorithm>
 #include <set>
@@ -23,91 +19,18 @@ namespace {
 
 } // namespace
 
-Experiment experimentFromJson(const Json &json, const std::string &where)
-{
-    if (!json.is_object())
-        throw Error(where, "must be a JSON object");
-    const Json kind = json.value("kind", Json("lines"));
-    if (kind == "lines")
-        return lineExperimentFromJson(json, where);
-    if (kind == "injection")
-        return injectionExperimentFromJson(json, where);
-    if (kind == "sweep")
-        return sweepExperimentFromJson(json, where);
-    throw Error(jsonName(where, "kind") + (kind.is_string() ? " = " + kind.get<std::string>() : ""),
-                "must be lines, injection or sweep");
-}
-
-Json toJson(const Experiment &experiment)
-{
-    return std::visit([](const auto &one) { return toJson(one); }, experiment);
-}
-
-int runCount(const Experiment &experiment)
-{
-    return std::visit(Overloaded{[](const LineExperiment &lines) { return lines.runs; },
-                                 [](const InjectionExperiment &injection) { return injection.trials; },
-                                 [](const SweepExperiment &sweep) { return sweep.runs(); }},
-                      experiment);
-}
-
-int runFromJson(const Json &json, const Experiment &experiment, const std::string &where)
-{
-    const int run = wholeNumber<int>(json, where);
-    if (run < 0 || run >= runCount(experiment))
-        throw Error(where + " = " + std::to_string(run), "must lie in 0 … " + std::to_string(runCount(experiment) - 1));
-    return run;
-}
-
-std::vector<double> snrsOf(const Experiment &experiment)
-{
-    return std::visit(Overloaded{[](const SweepExperiment &sweep) { return std::vector{sweep.snrDb}; },
-                                 [](const auto &one) { return one.snrDb; }},
-                      experiment);
-}
-
-std::vector<DetectorUnderTest> detectorsOf(const Experiment &experiment)
-{
-    return std::visit(Overloaded{[](const SweepExperiment &sweep) {
-                                     std::vector<DetectorUnderTest> detectors;
-                                     for (std::size_t i = 0; i < sweep.values.size(); ++i)
-                                         detectors.push_back({sweep.parameter + " = " + formatNumber(sweep.values[i]),
-                                                              experimentAt(sweep, i).settings});
-                                     return detectors;
-                                 },
-                                 [](const auto &one) { return one.detectors; }},
-                      experiment);
-}
-
-std::string recordingOf(const Experiment &experiment)
-{
-    return std::visit(Overloaded{[](const LineExperiment &) { return std::string(); },
-                                 [](const auto &one) { return fileNameFromText(one.recording); }},
-                      experiment);
-}
-
-RecordingPointer openRecordingOf(const Experiment &experiment)
-{
-    const std::string recording = recordingOf(experiment);
-    OpenOptions options;
-    options.iq = std::visit(
-        Overloaded{[](const LineExperiment &) { return false; }, [](const auto &one) { return one.iq; }}, experiment);
-    return recording.empty() ? RecordingPointer() : openRecording(recording, options);
-}
-
-void setSeed(Experiment &experiment, int seed)
-{
-    std::visit([seed](auto &one) { one.seed = seed; }, experiment);
-}
-
 std::unique_ptr<const Trials> prepareTrials(const Experiment &experiment, RecordingPointer recording,
                                             const RunContext &context)
 {
-    if (const auto *lines = std::get_if<LineExperiment>(&experiment))
-        return std::make_unique<LineTrials>(*lines, context);
-    if (const auto *injection = std::get_if<InjectionExperiment>(&experiment))
-        return std::make_unique<InjectionTrials>(*injection, std::move(recording), context);
-    return std::make_unique<SweepTrials>(std::get<SweepExperiment>(experiment), std::move(recording), context);
+    switch (experiment.kind) {
+    case Experiment::Kind::Lines:
+        return std::make_unique<LineTrials>(experiment, context);
+    case Experiment::Kind::Injection:
+        return std::make_unique<InjectionTrials>(experiment, std::move(recording), context);
+    case Experiment::Kind::Sweep:
+        return std::make_unique<SweepTrials>(experiment, std::move(recording), context);
+    }
+    return nullptr;
 }
 
 std::vector<int> openRuns(const Campaign &campaign, std::vector<int> runs)
@@ -139,7 +62,7 @@ void carryOut(Campaign &campaign, const std::vector<int> &runs, const Trials &tr
 std::vector<int> runsOfShard(const Experiment &experiment, int index, int count)
 {
     std::vector<int> runs;
-    for (int run = 0; run < runCount(experiment); ++run)
+    for (int run = 0; run < experiment.runs(); ++run)
         if (run % count == index % count)
             runs.push_back(run);
     return runs;
@@ -160,9 +83,9 @@ Campaign merge(std::vector<Campaign> parts)
     for (std::size_t i = 1; i < whole.outcomes.size(); ++i)
         if (whole.outcomes[i].run == whole.outcomes[i - 1].run)
             throw Error("merge", "run " + std::to_string(whole.outcomes[i].run) + " is in two parts");
-    for (int run = 0; run < runCount(whole.experiment); ++run)
+    for (int run = 0; run < whole.experiment.runs(); ++run)
         if (std::size_t(run) >= whole.outcomes.size() || whole.outcomes[std::size_t(run)].run != run)
-            throw Error("merge", "run " + std::to_string(run) + " of " + std::to_string(runCount(whole.experiment))
+            throw Error("merge", "run " + std::to_string(run) + " of " + std::to_string(whole.experiment.runs())
                                      + " is missing from all parts; add the missing shard");
     return whole;
 }

@@ -1,41 +1,12 @@
 #pragma once
 
-#include "evaluate/experiments/InjectionExperiment.h"
-#include "evaluate/experiments/LineExperiment.h"
-#include "evaluate/experiments/SweepExperiment.h"
+#include "evaluate/experiments/Experiment.h"
 #include "evaluate/experiments/Trials.h"
 
 #include <memory>
-#include <string>
-#include <variant>
 #include <vector>
 
 namespace faintline {
-
-/// Any experiment that gives detection probabilities.
-using Experiment = std::variant<LineExperiment, InjectionExperiment, SweepExperiment>;
-
-/// Reads an experiment by its "kind"; throws Error.
-Experiment experimentFromJson(const Json &json, const std::string &where);
-Json toJson(const Experiment &experiment);
-
-/// Number of runs (fields, or single trials) of the experiment.
-int runCount(const Experiment &experiment);
-
-/// Reads the number of a run; throws Error naming `where`.
-int runFromJson(const Json &json, const Experiment &experiment, const std::string &where);
-
-void setSeed(Experiment &experiment, int seed);
-
-/// The SNRs and the detectors of an experiment; a sweep has one SNR, and a detector for each value.
-std::vector<double> snrsOf(const Experiment &experiment);
-std::vector<DetectorUnderTest> detectorsOf(const Experiment &experiment);
-
-/// The name of an experiment's recording; empty if its noise is simulated.
-std::string recordingOf(const Experiment &experiment);
-
-/// Opens the recording that an experiment names; null if its noise is simulated. Throws Error.
-RecordingPointer openRecordingOf(const Experiment &experiment);
 
 /// Prepares an experiment's runs; the recording is the one that it names. Throws Error, Cancelled.
 std::unique_ptr<const Trials> prepareTrials(const Experiment &experiment, RecordingPointer recording,

@@ -140,20 +140,13 @@ struct InjectionTrials::Shared {
     std::optional<SignalMask> signals;
 };
 
-InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, RecordingPointer recording,
-                                 const RunContext &context)
+InjectionTrials::InjectionTrials(const Experiment &experiment, RecordingPointer recording, const RunContext &context)
     : m_experiment(experiment)
 {
+    checkExperiment(experiment);
     if (experiment.settings.noise.causal)
         throw fieldError("noise.causal", "true",
                          "is not possible in this experiment, which estimates the noise once for all trials");
-    checkHasNoFamily(experiment.settings, "is not possible in this experiment");
-    checkHasOneChannel(experiment.settings, "is not possible in this experiment");
-    checkSubtractsNothing(experiment.settings, "is not possible in this experiment");
-    for (const DetectorUnderTest &detector : experiment.detectors) {
-        checkHasNoFamily(detector.settings, "is not possible in this experiment");
-        checkSubtractsNothing(detector.settings, "is not possible in this experiment");
-    }
     auto shared = std::make_unique<Shared>();
     shared->recording = std::move(recording);
     shared->spectrogram = std::make_shared<Spectrogram>(shared->recording, experiment.settings.spectrogram,
@@ -356,7 +349,7 @@ private:
         return {std::max<Index>(0, bin - aside), std::min(axis.count - 1, bin + aside)};
     }
 
-    const InjectionExperiment &m_experiment;
+    const Experiment &m_experiment;
     const Shared &m_shared;
     const TruthLine &m_truth;
     std::shared_ptr<const NormalisedSpectrogram> m_frames;

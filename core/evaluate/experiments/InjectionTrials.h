@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/Axis.h"
-#include "evaluate/experiments/InjectionExperiment.h"
+#include "evaluate/experiments/Experiment.h"
 #include "evaluate/experiments/Trials.h"
 #include "plan/Calibration.h"
 
@@ -19,7 +19,7 @@ class InjectionTrials : public Trials
 public:
     /// Estimates the recording's noise, calibrates each detector, finds existing signals and measures thresholds.
     /// Throws Error, Cancelled.
-    InjectionTrials(const InjectionExperiment &experiment, RecordingPointer recording, const RunContext &context = {});
+    InjectionTrials(const Experiment &experiment, RecordingPointer recording, const RunContext &context = {});
     ~InjectionTrials();
 
     MadeTrial remake(int trial, double snrDb) const;
@@ -31,7 +31,7 @@ private:
     RunOutcome outcomeOf(int trial, const RunContext &quiet) const override;
     struct Shared;
     class LineLook;
-    InjectionExperiment m_experiment;
+    Experiment m_experiment;
     std::unique_ptr<const Shared> m_shared;
 };
 

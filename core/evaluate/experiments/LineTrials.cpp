@@ -17,14 +17,14 @@ namespace faintline {
 
 namespace {
 
-    Grid gridOf(const LineExperiment &experiment)
+    Grid gridOf(const Experiment &experiment)
     {
         return {{Axis{"frequency", "cells", 0.0, 1.0 / experiment.binsPerCell, experiment.bins(), false}}};
     }
 
     /// Fields of the experiment's noise with numbers that no run uses, for the calibration of K. They are longer than
     /// the runs if a detector would not settle within those.
-    std::vector<NormalisedFramesPointer> calibrationNoise(LineExperiment experiment, const RunContext &context)
+    std::vector<NormalisedFramesPointer> calibrationNoise(Experiment experiment, const RunContext &context)
     {
         constexpr int fields = 4;
         if (experiment.frames <= settlingFrames)
@@ -47,7 +47,7 @@ namespace {
         return noise;
     }
 
-    FrameGeometry geometryOf(const LineExperiment &experiment)
+    FrameGeometry geometryOf(const Experiment &experiment)
     {
         return {double(experiment.stepsPerWindow), double(experiment.binsPerCell)};
     }
@@ -66,7 +66,7 @@ namespace {
     class Run
     {
     public:
-        Run(const LineExperiment &experiment, int number, const std::vector<MarkovModel> &models,
+        Run(const Experiment &experiment, int number, const std::vector<MarkovModel> &models,
             const std::vector<ResetRule> &resets)
             : m_experiment(experiment), m_number(number), m_models(models), m_resets(resets),
               m_field(makeField(experiment, number)), m_signals(std::size_t(experiment.signalsPerRun()))
@@ -211,7 +211,7 @@ namespace {
                 largest = std::max(largest, statistic[std::size_t(bin)]);
         }
 
-        const LineExperiment &m_experiment;
+        const Experiment &m_experiment;
         int m_number;
         const std::vector<MarkovModel> &m_models;
         const std::vector<ResetRule> &m_resets;
@@ -222,7 +222,7 @@ namespace {
 
 } // namespace
 
-AnalysisSettings wholeSettings(const LineExperiment &experiment, std::size_t detector)
+AnalysisSettings wholeSettings(const Experiment &experiment, std::size_t detector)
 {
     AnalysisSettings settings = experiment.detectors[detector].settings;
     settings.selection = {};
@@ -232,7 +232,7 @@ AnalysisSettings wholeSettings(const LineExperiment &experiment, std::size_t det
     return settings;
 }
 
-LineTrials::LineTrials(const LineExperiment &experiment, const RunContext &context) : m_experiment(experiment)
+LineTrials::LineTrials(const Experiment &experiment, const RunContext &context) : m_experiment(experiment)
 {
     checkExperiment(experiment);
     for (const DetectorUnderTest &one : experiment.detectors)
@@ -253,7 +253,7 @@ RunOutcome LineTrials::outcomeOf(int run, const RunContext &quiet) const
     return Run(m_experiment, run, m_models, m_resets).outcome(quiet);
 }
 
-LineTrial remakeTrial(const LineExperiment &experiment, double snrDb, int run, int signal)
+LineTrial remakeTrial(const Experiment &experiment, double snrDb, int run, int signal)
 {
     checkExperiment(experiment);
     const NoisyField field = makeField(experiment, run);
@@ -278,7 +278,7 @@ LineTrial remakeTrial(const LineExperiment &experiment, double snrDb, int run, i
     return trial;
 }
 
-MadeTrial remakeField(const LineExperiment &experiment, double snrDb, int run, int signal)
+MadeTrial remakeField(const Experiment &experiment, double snrDb, int run, int signal)
 {
     checkExperiment(experiment);
     const NoisyField field = makeField(experiment, run);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "detect/Smd.h"
-#include "evaluate/experiments/LineExperiment.h"
+#include "evaluate/experiments/Experiment.h"
 #include "evaluate/experiments/Trials.h"
 #include "frames/NormalisedFrames.h"
 
@@ -15,7 +15,7 @@ class LineTrials : public Trials
 {
 public:
     /// Determines K of each detector on the experiment's own noise. Throws Error, Cancelled.
-    explicit LineTrials(const LineExperiment &experiment, const RunContext &context = {});
+    explicit LineTrials(const Experiment &experiment, const RunContext &context = {});
 
     /// One rule per detector; the default for detectors without one.
     const std::vector<ResetRule> &resets() const { return m_resets; }
@@ -23,13 +23,13 @@ public:
 private:
     RunOutcome outcomeOf(int run, const RunContext &quiet) const override;
 
-    LineExperiment m_experiment;
+    Experiment m_experiment;
     std::vector<MarkovModel> m_models; ///< of each detector
     std::vector<ResetRule> m_resets;
 };
 
 /// With these, a detector that is `detect` as a whole analyses a field: one false alarm per block.
-AnalysisSettings wholeSettings(const LineExperiment &experiment, std::size_t detector);
+AnalysisSettings wholeSettings(const Experiment &experiment, std::size_t detector);
 
 /// One signal of one run, regenerated alone.
 struct LineTrial {
@@ -38,9 +38,9 @@ struct LineTrial {
     Index firstFrame = 0;    ///< of the line, in the block
     std::vector<Index> path; ///< its bin in the block, one per frame of its duration
 };
-LineTrial remakeTrial(const LineExperiment &experiment, double snrDb, int run, int signal);
+LineTrial remakeTrial(const Experiment &experiment, double snrDb, int run, int signal);
 
 /// One run with all its lines, and the truth of one of them.
-MadeTrial remakeField(const LineExperiment &experiment, double snrDb, int run, int signal);
+MadeTrial remakeField(const Experiment &experiment, double snrDb, int run, int signal);
 
 } // namespace faintline

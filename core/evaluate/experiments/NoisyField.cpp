@@ -19,20 +19,20 @@ namespace {
     /// Tone.
     constexpr std::uint64_t streamsPerRun = 2;
 
-    RecordingInfo recordingInfo(const LineExperiment &experiment)
+    RecordingInfo recordingInfo(const Experiment &experiment)
     {
         // One window lasts one second, so that Hz are resolution cells.
         RecordingInfo info;
-        info.sampleRateHz = LineExperiment::windowSamples;
+        info.sampleRateHz = Experiment::windowSamples;
         info.isComplex = true;
-        info.centreHz = 0.5 * LineExperiment::windowSamples; // frequencies 0 … 250 cells
-        info.sampleCount = Index(LineExperiment::windowSamples) * (experiment.frames + experiment.stepsPerWindow - 1)
+        info.centreHz = 0.5 * Experiment::windowSamples; // frequencies 0 … 250 cells
+        info.sampleCount = Index(Experiment::windowSamples) * (experiment.frames + experiment.stepsPerWindow - 1)
                            / experiment.stepsPerWindow;
         return info;
     }
 
     /// The bin where a signal is strongest, near its nominal frequency.
-    Index strongestBin(const LineExperiment &experiment, const std::vector<Complex> &signal, Index frame, double cells,
+    Index strongestBin(const Experiment &experiment, const std::vector<Complex> &signal, Index frame, double cells,
                        Index lowest)
     {
         const auto expected = Index(std::lround(cells * experiment.binsPerCell));
@@ -70,15 +70,15 @@ namespace {
 
 } // namespace
 
-std::vector<Complex> fieldTransform(const LineExperiment &experiment, std::span<const float> samples)
+std::vector<Complex> fieldTransform(const Experiment &experiment, std::span<const float> samples)
 {
     const Index bins = experiment.bins();
-    const std::vector<float> window = sampleWindow(experiment.window, LineExperiment::windowSamples);
+    const std::vector<float> window = sampleWindow(experiment.window, Experiment::windowSamples);
     const Fft fft(experiment.bins(), Fft::Input::Complex);
     const auto buffer = fft.buffer();
     std::vector<Complex> spectra(std::size_t(experiment.frames * bins));
     for (Index frame = 0; frame < experiment.frames; ++frame) {
-        const float *from = samples.data() + 2 * frame * (LineExperiment::windowSamples / experiment.stepsPerWindow);
+        const float *from = samples.data() + 2 * frame * (Experiment::windowSamples / experiment.stepsPerWindow);
         const std::span<float> input = buffer->input();
         for (std::size_t i = 0; i < window.size(); ++i) {
             input[2 * i] = from[2 * i] * window[i];
@@ -93,7 +93,7 @@ std::vector<Complex> fieldTransform(const LineExperiment &experiment, std::span<
     return spectra;
 }
 
-void makeNoise(const LineExperiment &experiment, int run, NoisyField &field)
+void makeNoise(const Experiment &experiment, int run, NoisyField &field)
 {
     field.noiseSamples.resize(std::size_t(2 * recordingInfo(experiment).sampleCount));
     Random(std::uint64_t(experiment.seed), std::uint64_t(run) * streamsPerRun)
@@ -101,7 +101,7 @@ void makeNoise(const LineExperiment &experiment, int run, NoisyField &field)
     field.noise = fieldTransform(experiment, field.noiseSamples);
 }
 
-NoisyField makeField(const LineExperiment &experiment, int run)
+NoisyField makeField(const Experiment &experiment, int run)
 {
     NoisyField field;
     makeNoise(experiment, run, field);
@@ -109,9 +109,9 @@ NoisyField makeField(const LineExperiment &experiment, int run)
     const auto seed = std::uint64_t(experiment.seed);
     field.signalSamples.resize(field.noiseSamples.size());
     Random places(seed, std::uint64_t(run) * streamsPerRun + 1);
-    const double amplitude = toneAmplitude(0.0, 1.0, LineExperiment::windowSamples, true);
+    const double amplitude = toneAmplitude(0.0, 1.0, Experiment::windowSamples, true);
     const double blockCells = double(experiment.blockBins) / experiment.binsPerCell;
-    const double travel = experiment.driftCellsPerWindow * experiment.durationWindows;
+    const double travel = experiment.driftHzPerSecond * experiment.durationSeconds;
     for (int i = 0; i < experiment.signalsPerRun(); ++i) {
         const int blockInTime = i / experiment.blocksInFrequency();
         const int blockInFrequency = i % experiment.blocksInFrequency();
@@ -126,13 +126,13 @@ NoisyField makeField(const LineExperiment &experiment, int run)
         line.snrDb = 0.0;
         line.referenceSeconds = 1.0;
         line.startSeconds = double(place.firstFrame) / experiment.stepsPerWindow;
-        line.durationSeconds = experiment.durationWindows;
+        line.durationSeconds = experiment.durationSeconds;
         line.frequencyHz = lowest + places.uniform() * (highest - lowest);
-        line.driftHzPerSecond = experiment.driftCellsPerWindow;
-        line.wanderHz = experiment.wanderCells;
-        line.wanderSeconds = experiment.wanderWindows;
+        line.driftHzPerSecond = experiment.driftHzPerSecond;
+        line.wanderHz = experiment.wanderHz;
+        line.wanderSeconds = experiment.wanderSeconds;
         line.fading = experiment.fading;
-        line.fadingSeconds = experiment.fadingWindows;
+        line.fadingSeconds = experiment.fadingSeconds;
         line.fluctuation = experiment.fluctuation;
         const Tone tone(line, amplitude, info, seed, Index(run) * experiment.signalsPerRun() + i);
         tone.addTo(0, field.signalSamples);
@@ -153,7 +153,7 @@ NoisyField makeField(const LineExperiment &experiment, int run)
     return field;
 }
 
-RecordingPointer recordingOf(const LineExperiment &experiment, const NoisyField &field, float amplitude)
+RecordingPointer recordingOf(const Experiment &experiment, const NoisyField &field, float amplitude)
 {
     const RecordingInfo info = recordingInfo(experiment);
     auto samples = std::make_shared<std::vector<float>>(field.noiseSamples);

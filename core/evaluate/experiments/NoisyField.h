@@ -1,6 +1,6 @@
 #pragma once
 
-#include "evaluate/experiments/LineExperiment.h"
+#include "evaluate/experiments/Experiment.h"
 #include "scene/Truth.h"
 #include "signal/Recording.h"
 
@@ -10,7 +10,7 @@
 
 namespace faintline {
 
-// Data of one run of the experiment (LineExperiment.h).
+// Data of one run of the experiment (Experiment.h).
 
 /// True position of a line in the field.
 struct Place {
@@ -29,15 +29,15 @@ struct NoisyField {
 };
 
 /// Sliding transforms of interleaved complex samples, frames × bins, scaled to unit noise variance.
-std::vector<std::complex<float>> fieldTransform(const LineExperiment &experiment, std::span<const float> samples);
+std::vector<std::complex<float>> fieldTransform(const Experiment &experiment, std::span<const float> samples);
 
 /// Generates the run's noise only.
-void makeNoise(const LineExperiment &experiment, int run, NoisyField &field);
+void makeNoise(const Experiment &experiment, int run, NoisyField &field);
 
-NoisyField makeField(const LineExperiment &experiment, int run);
+NoisyField makeField(const Experiment &experiment, int run);
 
 /// The samples noise + amplitude·signal as a recording.
-RecordingPointer recordingOf(const LineExperiment &experiment, const NoisyField &field, float amplitude);
+RecordingPointer recordingOf(const Experiment &experiment, const NoisyField &field, float amplitude);
 
 /// y = |noise + amplitude·signal|² of one frame of `bins` values.
 void powerOf(const NoisyField &field, Index bins, Index frame, float amplitude, std::span<float> y);

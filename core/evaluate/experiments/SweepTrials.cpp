@@ -30,7 +30,7 @@ RunOutcome sweepOutcome(int run, std::ptrdiff_t falseAlarms, double seconds, dou
     return outcome;
 }
 
-SweepTrials::SweepTrials(const SweepExperiment &experiment, RecordingPointer recording, const RunContext &context)
+SweepTrials::SweepTrials(const Experiment &experiment, RecordingPointer recording, const RunContext &context)
     : m_experiment(experiment), m_recording(std::move(recording)),
       m_referenceSeconds(experiment.settings.spectrogram.windowSeconds)
 {
@@ -75,12 +75,12 @@ SweepTrials::SweptTrial SweepTrials::remake(int run) const
     Random places(std::uint64_t(m_experiment.seed), std::uint64_t(trial));
     const std::uint64_t seed = std::uint64_t(m_experiment.seed) * 1000003 + std::uint64_t(trial);
     const Placement placement{places.uniform(), places.uniform(), seed}; // in this order
-    const SweepExperiment one = experimentAt(m_experiment, std::size_t(m_experiment.valueOf(run)));
+    const Experiment one = experimentAt(m_experiment, std::size_t(m_experiment.valueOf(run)));
     const LineSettings line = lineAt(one, placement);
     return m_recording ? inject(one, line, placement) : simulate(one, line, placement);
 }
 
-LineSettings SweepTrials::lineAt(const SweepExperiment &one, const Placement &placement) const
+LineSettings SweepTrials::lineAt(const Experiment &one, const Placement &placement) const
 {
     RecordingInfo info;
     info.sampleRateHz = one.sampleRateHz;
@@ -104,7 +104,7 @@ LineSettings SweepTrials::lineAt(const SweepExperiment &one, const Placement &pl
         throw Error("driftHzPerSecond, wanderHz",
                     "a line must stay within the band of " + formatNumber(highest - lowest) + " Hz");
     LineSettings line;
-    line.snrDb = one.snrDb;
+    line.snrDb = one.snrDb.front();
     line.referenceSeconds = m_referenceSeconds;
     line.startSeconds = one.marginSeconds;
     line.durationSeconds = one.durationSeconds;
@@ -115,7 +115,7 @@ LineSettings SweepTrials::lineAt(const SweepExperiment &one, const Placement &pl
     return line;
 }
 
-SweepTrials::SweptTrial SweepTrials::simulate(const SweepExperiment &one, const LineSettings &line,
+SweepTrials::SweptTrial SweepTrials::simulate(const Experiment &one, const LineSettings &line,
                                               const Placement &placement) const
 {
     LineScene scene;
@@ -130,8 +130,7 @@ SweepTrials::SweptTrial SweepTrials::simulate(const SweepExperiment &one, const 
     return made;
 }
 
-SweepTrials::SweptTrial SweepTrials::inject(const SweepExperiment &one, LineSettings line,
-                                            const Placement &placement) const
+SweepTrials::SweptTrial SweepTrials::inject(const Experiment &one, LineSettings line, const Placement &placement) const
 {
     const SelectionSettings &selection = one.settings.selection;
     const double recorded = m_recording->info().durationSeconds();

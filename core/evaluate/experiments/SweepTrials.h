@@ -1,6 +1,6 @@
 #pragma once
 
-#include "evaluate/experiments/SweepExperiment.h"
+#include "evaluate/experiments/Experiment.h"
 #include "evaluate/experiments/Trials.h"
 #include "plan/Calibration.h"
 
@@ -17,7 +17,7 @@ class SweepTrials : public Trials
 {
 public:
     /// `recording` may be null for simulated noise. Calibrates each value. Throws Error, Cancelled.
-    SweepTrials(const SweepExperiment &experiment, RecordingPointer recording, const RunContext &context = {});
+    SweepTrials(const Experiment &experiment, RecordingPointer recording, const RunContext &context = {});
 
     /// The settings have the run's value, and select the stretch.
     struct SweptTrial : MadeTrial {
@@ -31,11 +31,11 @@ public:
 private:
     RunOutcome outcomeOf(int run, const RunContext &quiet) const override;
     struct Placement;
-    LineSettings lineAt(const SweepExperiment &one, const Placement &placement) const; ///< from its stretch's start
-    SweptTrial simulate(const SweepExperiment &one, const LineSettings &line, const Placement &placement) const;
-    SweptTrial inject(const SweepExperiment &one, LineSettings line, const Placement &placement) const;
+    LineSettings lineAt(const Experiment &one, const Placement &placement) const; ///< from its stretch's start
+    SweptTrial simulate(const Experiment &one, const LineSettings &line, const Placement &placement) const;
+    SweptTrial inject(const Experiment &one, LineSettings line, const Placement &placement) const;
 
-    SweepExperiment m_experiment;
+    Experiment m_experiment;
     RecordingPointer m_recording;
     std::vector<StopBand> m_stopBands; ///< of the recording: no line is placed there
     double m_referenceSeconds;         ///< the window to which an SNR refers

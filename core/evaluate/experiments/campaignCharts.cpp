@@ -14,39 +14,39 @@ namespace {
     constexpr double snrStep = 0.25; ///< dB, of theory curves
 
     /// Whether a frame has one power. Where frames overlap, those between two windows hold parts of two powers.
-    bool hasWholeFrames(const LineExperiment &lines)
+    bool hasWholeFrames(const Experiment &lines)
     {
         return lines.stepsPerWindow == 1 || !changesFromFrameToFrame(lines.fluctuation);
     }
 
-    bool hasTheory(const LineExperiment &lines, const DetectorUnderTest &detectorUnderTest)
+    bool hasTheory(const Experiment &lines, const DetectorUnderTest &detectorUnderTest)
     {
         const auto *integrator = std::get_if<IntegratorSettings>(&detectorUnderTest.settings.detector);
-        return integrator && integrator->shape == IntegratorSettings::Shape::Boxcar
-               && integrator->durationWindows == lines.durationWindows && lines.durationWindows >= 1.0
-               && lines.wanderCells == 0.0 && lines.driftCellsPerWindow == 0.0 && lines.fading == Fading::None
+        return lines.isLines() && integrator && integrator->shape == IntegratorSettings::Shape::Boxcar
+               && integrator->durationWindows == lines.durationSeconds && lines.durationSeconds >= 1.0
+               && lines.wanderHz == 0.0 && lines.driftHzPerSecond == 0.0 && lines.fading == Fading::None
                && lines.window == WindowShape::Rectangular && hasWholeFrames(lines);
     }
 
     /// Name of the law that theory assumes of a line's power.
-    std::string theoryName(const LineExperiment &lines)
+    std::string theoryName(const Experiment &lines)
     {
         const auto number = int(lines.fluctuation);
         return lines.fluctuation == Fluctuation::None ? "Marcum Q" : "Swerling " + std::to_string(number);
     }
 
     /// Pd of the integrator for a mean number of false alarms per block.
-    double integratorPd(const LineExperiment &lines, double falseAlarms, double snrDb)
+    double integratorPd(const Experiment &lines, double falseAlarms, double snrDb)
     {
-        const int looks = int(std::lround(lines.durationWindows));
+        const int looks = int(std::lround(lines.durationSeconds));
         const double cells = double(lines.blockFrames) / lines.stepsPerWindow * lines.blockBins / lines.binsPerCell;
-        const double pfa = std::min(1.0, falseAlarms * lines.durationWindows / cells);
+        const double pfa = std::min(1.0, falseAlarms * lines.durationSeconds / cells);
         if (pfa >= 1.0)
             return 1.0;
         return pdOfMeanPower(thresholdOfMeanPower(pfa, looks), looks, ratioFromDb(snrDb), lines.fluctuation);
     }
 
-    Curve theoryAgainstSnr(const LineExperiment &lines, const std::string &name)
+    Curve theoryAgainstSnr(const Experiment &lines, const std::string &name)
     {
         Curve curve{name + ", " + theoryName(lines), Curve::Kind::Theory, {}};
         const auto [low, high] = std::minmax_element(lines.snrDb.begin(), lines.snrDb.end());
@@ -55,7 +55,7 @@ namespace {
         return curve;
     }
 
-    Curve theoryAgainstFalseAlarms(const LineExperiment &lines, const std::string &name, double snrDb, double low,
+    Curve theoryAgainstFalseAlarms(const Experiment &lines, const std::string &name, double snrDb, double low,
                                    double high)
     {
         constexpr int points = 60;
@@ -81,7 +81,7 @@ namespace {
     }
 
     /// Theory over the false alarms that were measured.
-    void addTheory(Chart &chart, const LineExperiment &lines, std::size_t snr)
+    void addTheory(Chart &chart, const Experiment &lines, std::size_t snr)
     {
         double low = 1.0;
         double high = 1.0;
@@ -99,7 +99,7 @@ namespace {
     /// The detector of the campaign that equals the current settings.
     std::optional<std::size_t> detectorLike(const Campaign &campaign, const AnalysisSettings &current)
     {
-        if (campaign.outcomes.empty() || std::holds_alternative<SweepExperiment>(campaign.experiment))
+        if (campaign.outcomes.empty() || campaign.experiment.isSweep())
             return {};
         const std::vector<DetectorUnderTest> detectors = detectorsOf(campaign.experiment);
         for (std::size_t d = 0; d < detectors.size(); ++d)
@@ -129,7 +129,7 @@ namespace {
         return *high / *low > 5.0 && fromGeometric < fromArithmetic;
     }
 
-    std::string labelOf(const SweepExperiment &experiment)
+    std::string labelOf(const Experiment &experiment)
     {
         const FieldInfo &field = parameterInfo(experiment.parameter);
         return field.name + (field.unit.empty() ? "" : " (" + field.unit + ")");
@@ -156,7 +156,7 @@ std::optional<Curve> pdAtOperatingPoint(const Campaign &campaign, const Analysis
     if (!detector)
         return {};
     Curve curve{nameAt(campaign, *detector, threshold), Curve::Kind::Theory, {}};
-    const std::vector<double> snrs = snrsOf(campaign.experiment);
+    const std::vector<double> snrs = campaign.experiment.snrDb;
     for (std::size_t s = 0; s < snrs.size(); ++s)
         curve.points.push_back({snrs[s], pdAbove(campaign, *detector, s, threshold).pd, {}});
     return curve;
@@ -175,7 +175,7 @@ std::optional<Curve> operatingPoint(const Campaign &campaign, std::size_t snr, c
     }
     // None or all cannot be drawn on a logarithmic axis: half a block is added or subtracted.
     const double share = std::clamp(double(above), 0.5, double(all) - 0.5) / double(all);
-    const bool isInBlocks = std::holds_alternative<LineExperiment>(campaign.experiment);
+    const bool isInBlocks = campaign.experiment.isLines();
     const CurvePoint pd = pdAbove(campaign, *detector, snr, threshold);
     return Curve{nameAt(campaign, *detector, threshold),
                  Curve::Kind::Paper,
@@ -195,30 +195,30 @@ std::vector<Curve> curvesOf(const std::vector<CurvePoint> &points)
 
 Chart pdChart(const Campaign &campaign)
 {
-    if (std::holds_alternative<SweepExperiment>(campaign.experiment))
+    if (campaign.experiment.isSweep())
         return sweepChart(campaign, SweepMeasure::Pd);
-    const auto *lines = std::get_if<LineExperiment>(&campaign.experiment);
+    const Experiment &experiment = campaign.experiment;
     Chart chart{"Detection probability", "SNR (dB), at 1 false alarm per block", "Pd", false, false, {}};
-    if (const auto *injection = std::get_if<InjectionExperiment>(&campaign.experiment)) {
+    if (!experiment.isLines()) {
         chart.title = "Detection probability in this recording";
-        chart.xLabel = "SNR (dB), at " + formatNumber(injection->falseAlarmsPerHour)
-                       + (injection->falseAlarmsPerHour == 1.0 ? " false alarm/h" : " false alarms/h");
+        chart.xLabel = "SNR (dB), at " + formatNumber(experiment.falseAlarmsPerHour)
+                       + (experiment.falseAlarmsPerHour == 1.0 ? " false alarm/h" : " false alarms/h");
     }
     chart.curves = curvesOf(pdCurve(campaign));
-    if (lines && !campaign.outcomes.empty())
-        for (const DetectorUnderTest &detectorUnderTest : lines->detectors)
-            if (hasTheory(*lines, detectorUnderTest))
-                chart.curves.push_back(theoryAgainstSnr(*lines, detectorUnderTest.name));
+    if (!campaign.outcomes.empty())
+        for (const DetectorUnderTest &detectorUnderTest : experiment.detectors)
+            if (hasTheory(experiment, detectorUnderTest))
+                chart.curves.push_back(theoryAgainstSnr(experiment, detectorUnderTest.name));
     return chart;
 }
 
 Chart rocChart(const Campaign &campaign, std::size_t snr)
 {
-    if (std::holds_alternative<SweepExperiment>(campaign.experiment))
+    if (campaign.experiment.isSweep())
         return tradeOffChart(campaign);
-    const auto *lines = std::get_if<LineExperiment>(&campaign.experiment);
-    Chart chart{"Receiver operating characteristic at " + formatNumber(snrsOf(campaign.experiment).at(snr)) + " dB",
-                lines ? "False alarms per block" : "P(path without the line exceeds)",
+    const bool isLines = campaign.experiment.isLines();
+    Chart chart{"Receiver operating characteristic at " + formatNumber(campaign.experiment.snrDb.at(snr)) + " dB",
+                isLines ? "False alarms per block" : "P(path without the line exceeds)",
                 "Pd",
                 true,
                 false,
@@ -226,14 +226,13 @@ Chart rocChart(const Campaign &campaign, std::size_t snr)
     if (campaign.outcomes.empty())
         return chart;
     addMeasured(chart, campaign, snr);
-    if (lines)
-        addTheory(chart, *lines, snr);
+    addTheory(chart, campaign.experiment, snr);
     return chart;
 }
 
 Chart sweepChart(const Campaign &campaign, SweepMeasure measure)
 {
-    const auto &experiment = std::get<SweepExperiment>(campaign.experiment);
+    const auto &experiment = campaign.experiment;
     Chart chart{"Detection probability", labelOf(experiment), "Pd", isLogarithmic(experiment.values), false, {}};
     if (measure == SweepMeasure::FalseAlarms) {
         chart.title = "False alarms";
@@ -260,7 +259,7 @@ Chart sweepChart(const Campaign &campaign, SweepMeasure measure)
 
 Chart tradeOffChart(const Campaign &campaign)
 {
-    const std::string &parameter = std::get<SweepExperiment>(campaign.experiment).parameter;
+    const std::string &parameter = campaign.experiment.parameter;
     std::vector<Curve::Point> points;
     for (const SweepPoint &point : sweepCurve(campaign)) {
         const Curve::Point shown{shownFalseAlarms(point), point.pd, point.pdInterval, formatNumber(point.value)};
@@ -276,7 +275,7 @@ Chart tradeOffChart(const Campaign &campaign)
     return withCurve({"Trade-off of " + parameter, "false alarms per hour", "Pd", true, false, {}}, std::move(points));
 }
 
-Chart costChart(const SweepExperiment &experiment, const std::vector<double> &seconds)
+Chart costChart(const Experiment &experiment, const std::vector<double> &seconds)
 {
     std::vector<Curve::Point> points;
     for (std::size_t i = 0; i < std::min(seconds.size(), experiment.values.size()); ++i)

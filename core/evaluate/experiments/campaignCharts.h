@@ -46,6 +46,6 @@ Chart sweepChart(const Campaign &campaign, SweepMeasure measure);
 Chart tradeOffChart(const Campaign &campaign);
 
 /// Processor seconds per hour of recording against the parameter.
-Chart costChart(const SweepExperiment &experiment, const std::vector<double> &seconds);
+Chart costChart(const Experiment &experiment, const std::vector<double> &seconds);
 
 } // namespace faintline

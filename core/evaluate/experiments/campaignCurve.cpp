@@ -45,27 +45,26 @@ std::vector<CurvePoint> pdCurve(const Campaign &campaign)
     std::vector<CurvePoint> curve;
     if (campaign.outcomes.empty())
         return curve;
-    if (const auto *sweep = std::get_if<SweepExperiment>(&campaign.experiment)) {
+    const Experiment &experiment = campaign.experiment;
+    if (experiment.isSweep()) {
         for (const SweepPoint &point : sweepCurve(campaign))
-            curve.push_back({sweep->parameter + " = " + formatNumber(point.value), sweep->snrDb, point.pd,
-                             point.pdInterval, point.trials, point.threshold});
+            curve.push_back({experiment.parameter + " = " + formatNumber(point.value), experiment.snrDb.front(),
+                             point.pd, point.pdInterval, point.trials, point.threshold});
         return curve;
     }
-    const auto *lines = std::get_if<LineExperiment>(&campaign.experiment);
-    const std::vector<DetectorUnderTest> detectors = detectorsOf(campaign.experiment);
-    for (std::size_t d = 0; d < detectors.size(); ++d) {
+    for (std::size_t d = 0; d < experiment.detectors.size(); ++d) {
         const double threshold = shownThreshold(campaign, d);
-        for (std::size_t s = 0; s < snrsOf(campaign.experiment).size(); ++s) {
-            curve.push_back(lines ? pdAgainstBlocks(*lines, campaign.outcomes, d, s)
-                                  : pdAbove(campaign, d, s, threshold));
-            curve.back().detector = detectors[d].name;
+        for (std::size_t s = 0; s < experiment.snrDb.size(); ++s) {
+            curve.push_back(experiment.isLines() ? pdAgainstBlocks(experiment, campaign.outcomes, d, s)
+                                                 : pdAbove(campaign, d, s, threshold));
+            curve.back().detector = experiment.detectors[d].name;
             curve.back().threshold = threshold;
         }
     }
     return curve;
 }
 
-CurvePoint pdAgainstBlocks(const LineExperiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector,
+CurvePoint pdAgainstBlocks(const Experiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector,
                            std::size_t snr)
 {
     CurvePoint point;
@@ -100,7 +99,7 @@ CurvePoint pdAbove(const Campaign &campaign, std::size_t detector, std::size_t s
     const std::vector<float> signals = pooledSignals(campaign.outcomes, detector, snr);
     const auto wins = std::ranges::count_if(signals, [&](float value) { return double(value) > threshold; });
     const std::int64_t trials = std::ssize(signals);
-    const double snrDb = snrsOf(campaign.experiment)[snr];
+    const double snrDb = campaign.experiment.snrDb[snr];
     return {{}, snrDb, double(wins) / double(trials), wilsonInterval(wins, trials), trials, threshold};
 }
 
@@ -123,9 +122,9 @@ double shownThreshold(const Campaign &campaign, std::size_t detector)
 
 std::vector<RocPoint> rocPoints(const Campaign &campaign, std::size_t detector, std::size_t snr)
 {
-    if (campaign.outcomes.empty() || std::holds_alternative<SweepExperiment>(campaign.experiment))
+    if (campaign.outcomes.empty() || campaign.experiment.isSweep())
         return {};
-    const bool isInBlocks = std::holds_alternative<LineExperiment>(campaign.experiment);
+    const bool isInBlocks = campaign.experiment.isLines();
     const std::vector<float> noise = pooledNoise(campaign.outcomes, detector);
     std::vector<float> signals = pooledSignals(campaign.outcomes, detector, snr);
     std::ranges::sort(signals);
@@ -144,7 +143,7 @@ std::vector<RocPoint> rocPoints(const Campaign &campaign, std::size_t detector, 
 
 std::vector<SweepPoint> sweepCurve(const Campaign &campaign)
 {
-    const auto &experiment = std::get<SweepExperiment>(campaign.experiment);
+    const auto &experiment = campaign.experiment;
     std::vector<SweepPoint> curve(experiment.values.size());
     std::vector<double> sum(curve.size()), sumOfSquares(curve.size());
     for (const RunOutcome &outcome : campaign.outcomes) {

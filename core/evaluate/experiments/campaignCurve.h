@@ -33,7 +33,7 @@ std::vector<CurvePoint> pdCurve(const Campaign &campaign);
 /// D₁ᵢ is the largest statistic on signal i, D₀ⱼ that of noise block j: each block's maximum serves as threshold once.
 /// The interval is computed from the scatter of the runs (with fewer than five runs, Wilson's for the signals). The
 /// point has neither name nor threshold.
-CurvePoint pdAgainstBlocks(const LineExperiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector,
+CurvePoint pdAgainstBlocks(const Experiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector,
                            std::size_t snr);
 
 /// The share of a detector's signals above a threshold. The point has no name. Precondition: there are runs.

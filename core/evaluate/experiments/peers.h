@@ -1,6 +1,6 @@
 #pragma once
 
-#include "evaluate/experiments/LineExperiment.h"
+#include "evaluate/experiments/Experiment.h"
 
 #include <string_view>
 #include <vector>

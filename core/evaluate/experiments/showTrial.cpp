@@ -12,7 +12,7 @@ namespace faintline {
 namespace {
 
     /// Precomputed frames have no windows or resolution cells: lengths are converted to frames and bins.
-    DetectorSettings inFrames(DetectorSettings detector, const LineExperiment &lines)
+    DetectorSettings inFrames(DetectorSettings detector, const Experiment &lines)
     {
         if (auto *integrator = std::get_if<IntegratorSettings>(&detector))
             integrator->durationWindows *= lines.stepsPerWindow;
@@ -30,10 +30,11 @@ namespace {
         settings.decide.thresholdNats = std::clamp(threshold, range.minimum, range.maximum);
     }
 
-    ShownTrial showLine(const Campaign &campaign, const LineExperiment &lines, const CampaignPoint &point,
-                        const TrialPlace &place, const RunContext &context)
+    ShownTrial showLine(const Campaign &campaign, const CampaignPoint &point, const TrialPlace &place,
+                        const RunContext &context)
     {
-        LineExperiment alone = lines;
+        const Experiment &lines = campaign.experiment;
+        Experiment alone = lines;
         alone.detectors = {lines.detectors[point.detector]};
         AnalysisSettings settings = alone.detectors.front().settings;
         if (auto *smd = std::get_if<SmdSettings>(&settings.detector);
@@ -62,7 +63,7 @@ namespace {
     ShownTrial showInjected(const Campaign &campaign, const InjectionTrials &trials, const CampaignPoint &point,
                             const TrialPlace &place, const RunContext &context)
     {
-        const auto &injection = std::get<InjectionExperiment>(campaign.experiment);
+        const Experiment &injection = campaign.experiment;
         const MadeTrial made = trials.remake(place.run, injection.snrDb[point.snr]);
         AnalysisSettings settings = settingsOf(injection, point.detector);
         if (injection.detectors[point.detector].isWhole)
@@ -93,13 +94,14 @@ std::vector<TrialOutcome> trialsOf(const Campaign &campaign, const CampaignPoint
 ShownTrial showTrial(const Campaign &campaign, const Trials *trials, const CampaignPoint &point,
                      const TrialPlace &place, const RunContext &context)
 {
-    if (const auto *lines = std::get_if<LineExperiment>(&campaign.experiment)) {
-        if (!lines->detectors[point.detector].isWhole)
-            return showLine(campaign, *lines, point, place, context);
-        const MadeTrial made = remakeField(*lines, lines->snrDb[point.snr], place.run, place.signal);
-        return {analyse(made.recording, wholeSettings(*lines, point.detector), {}, context), {{made.truth}}};
+    const Experiment &experiment = campaign.experiment;
+    if (experiment.isLines()) {
+        if (!experiment.detectors[point.detector].isWhole)
+            return showLine(campaign, point, place, context);
+        const MadeTrial made = remakeField(experiment, experiment.snrDb[point.snr], place.run, place.signal);
+        return {analyse(made.recording, wholeSettings(experiment, point.detector), {}, context), {{made.truth}}};
     }
-    if (std::holds_alternative<SweepExperiment>(campaign.experiment))
+    if (experiment.isSweep())
         throw Error("trial", "trials of a sweep cannot be shown; apply the value and inject a line instead");
     if (const auto *injected = dynamic_cast<const InjectionTrials *>(trials))
         return showInjected(campaign, *injected, point, place, context);
