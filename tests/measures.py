@@ -102,10 +102,11 @@ def size():
 
 # From the chain to the result
 
-# What third-design.md, section 1, lists as stages after the chain, and as recursions written once more (presence: twice).
+# What third-design.md, section 1, lists as stages after the chain, and as recursions written once more (presence: twice; that of the layers is
+# carryAlong in PathTrace).
 STAGES = ("secondLook explanation levelBeside searchBehind relink decideJointly familyLoneTeeth familyGhosts overOwnNoise overSides spreadTracks"
           " otherWindows trimEnds trimOnset").split()
-PROGRAMMES = {"ForwardBackward": 1, "presence": 2, "jointPaths": 1, "outputLayers": 1}
+PROGRAMMES = {"ForwardBackward": 1, "presence": 2, "jointPaths": 1, "PathTrace": 1}
 
 # The rooms from frames to plan, and analyse. The chain's own model and calibrate are not among them.
 ROOMS = tuple(f"core/{room}/" for room in "frames noise detect track refine plan analyse".split())

@@ -138,73 +138,15 @@ std::size_t LayerReplay::Ages::bytes() const
     return total;
 }
 
-/// One axis's part of the step: the best way into each state along it, with ties decided as in the recursion.
-void LayerReplay::move(const MarkovModel &model, std::size_t axis, Index step, const Paths &from, Paths &to)
-{
-    const std::vector<KinematicAxis> &axes = model.space.axes();
-    const KinematicAxis &own = axes[axis];
-    Index inner = 1; // neighbours with the same coordinates on this axis
-    Index outerCells = 1;
-    Index innerRates = 1;
-    Index outerRates = 1;
-    for (const KinematicAxis &other : axes) {
-        if (&other == &own)
-            continue;
-        (&other < &own ? outerCells : inner) *= other.cells;
-        (&other < &own ? outerRates : innerRates) *= other.rateCount;
-    }
-    to.scores.assign(from.scores.size(), unreached);
-    to.ages.assign(from.ages.size(), 0);
-    const Index cells = model.space.cellCount();
-    const auto plane = [&](Index outer, Index rate, Index innermost) {
-        return ((outer * own.rateCount + rate) * innerRates + innermost) * cells;
-    };
-    const auto take = [&](Index target, Index source, Index count, float ln) {
-        const float *score = from.scores.data() + source;
-        const std::int32_t *age = from.ages.data() + source;
-        float *best = to.scores.data() + target;
-        std::int32_t *its = to.ages.data() + target;
-        for (Index i = 0; i < count; ++i) {
-            const float other = score[i] + ln;
-            const bool isBetter = other > best[i];
-            its[i] = isBetter ? age[i] : its[i];
-            best[i] = isBetter ? other : best[i];
-        }
-    };
-    for (const KinematicAxis::Move &move : own.moves(step)) {
-        const auto ln = float(move.lnProbability * model.transitionScale);
-        const Index shift = move.cells;
-        if (std::abs(shift) >= own.cells)
-            continue;
-        for (Index outerRate = 0; outerRate < outerRates; ++outerRate)
-            for (Index innerRate = 0; innerRate < innerRates; ++innerRate)
-                for (Index outer = 0; outer < outerCells; ++outer) {
-                    const Index block = outer * own.cells * inner;
-                    const Index target = plane(outerRate, move.toRate, innerRate) + block;
-                    const Index source = plane(outerRate, move.fromRate, innerRate) + block;
-                    take(target + std::max<Index>(shift, 0) * inner, source + std::max<Index>(-shift, 0) * inner,
-                         (own.cells - std::abs(shift)) * inner, ln);
-                    if (own.cyclic && shift > 0)
-                        take(target, source + (own.cells - shift) * inner, shift * inner, ln);
-                    if (own.cyclic && shift < 0)
-                        take(target + (own.cells + shift) * inner, source, -shift * inner, ln);
-                }
-    }
-}
-
 void LayerReplay::followPaths(std::size_t model, Index frame)
 {
     std::swap(m_paths.scores, m_before[model]);
-    std::swap(m_paths.ages, m_ages.states[model]);
-    for (std::size_t axis = m_models[model].space.axes().size();
-         axis-- > 0;) { // the last one first: rates of the first decide ties
-        move(m_models[model], axis, frame, m_paths, m_moved);
-        std::swap(m_paths, m_moved);
-    }
+    std::swap(m_paths.carried, m_ages.states[model]);
+    carryAlong(m_models[model], frame, m_paths, m_moved);
     const auto lnK = float(m_replay.chain().detector().regulation(model).stepLnK);
-    for (std::size_t state = 0; state < m_paths.ages.size(); ++state)
-        m_paths.ages[state] = m_paths.scores[state] + lnK > 0.0f ? m_paths.ages[state] + 1 : 0;
-    std::swap(m_paths.ages, m_ages.states[model]);
+    for (std::size_t state = 0; state < m_paths.carried.size(); ++state)
+        m_paths.carried[state] = m_paths.scores[state] + lnK > 0.0f ? m_paths.carried[state] + 1 : 0;
+    std::swap(m_paths.carried, m_ages.states[model]);
 }
 
 /// Age of the oldest path through a state's cell: when a track changes its model, its states are others.

@@ -69,12 +69,6 @@ private:
 
         std::size_t bytes() const;
     };
-    /// Scores of all states in the step into the next frame, and the ages of their paths.
-    struct Paths {
-        std::vector<float> scores;
-        std::vector<std::int32_t> ages;
-    };
-
     /// Runs from `begin` or a checkpoint before it, unless it is already past that.
     void walk(Index begin, Index frame, const RunContext &context);
     void seek(Index frame);
@@ -86,7 +80,6 @@ private:
     void followTrackers();
     std::int32_t oldestAt(Index state, const std::unordered_map<Index, std::int32_t> &ages) const;
     void project(std::span<const float> statistic);
-    static void move(const MarkovModel &model, std::size_t axis, Index step, const Paths &from, Paths &to);
 
     std::shared_ptr<const Analysis> m_analysis;
     Replay m_replay;
@@ -94,8 +87,8 @@ private:
     std::vector<MarkovModel> m_models;
     Ages m_ages;
     std::vector<std::vector<float>> m_before; ///< each model's scores before the step
-    Paths m_paths;
-    Paths m_moved;
+    CarriedPaths m_paths;                     ///< scores in the step into the next frame, with the ages of their paths
+    CarriedPaths m_moved;
     Index m_beginning = 0;
     Checkpoints<Ages> m_checkpoints; ///< parallel to those of the replay
     CellLayers m_layers;

@@ -360,4 +360,67 @@ std::vector<PathStep> tracePath(const MarkovModel &model, const Grid &grid, cons
     return path;
 }
 
+/// One axis's part of the step: the best way into each state along it, with ties decided as in the recursion.
+static void carryAlongAxis(const MarkovModel &model, std::size_t axis, Index step, const CarriedPaths &from,
+                           CarriedPaths &to)
+{
+    const std::vector<KinematicAxis> &axes = model.space.axes();
+    const KinematicAxis &own = axes[axis];
+    Index inner = 1; // neighbours with the same coordinates on this axis
+    Index outerCells = 1;
+    Index innerRates = 1;
+    Index outerRates = 1;
+    for (const KinematicAxis &other : axes) {
+        if (&other == &own)
+            continue;
+        (&other < &own ? outerCells : inner) *= other.cells;
+        (&other < &own ? outerRates : innerRates) *= other.rateCount;
+    }
+    to.scores.assign(from.scores.size(), unreached);
+    to.carried.assign(from.carried.size(), 0);
+    const Index cells = model.space.cellCount();
+    const auto plane = [&](Index outer, Index rate, Index innermost) {
+        return ((outer * own.rateCount + rate) * innerRates + innermost) * cells;
+    };
+    const auto take = [&](Index target, Index source, Index count, float ln) {
+        const float *score = from.scores.data() + source;
+        const std::int32_t *carried = from.carried.data() + source;
+        float *best = to.scores.data() + target;
+        std::int32_t *brought = to.carried.data() + target;
+        for (Index i = 0; i < count; ++i) {
+            const float other = score[i] + ln;
+            const bool isBetter = other > best[i];
+            brought[i] = isBetter ? carried[i] : brought[i];
+            best[i] = isBetter ? other : best[i];
+        }
+    };
+    for (const KinematicAxis::Move &move : own.moves(step)) {
+        const auto ln = float(move.lnProbability * model.transitionScale);
+        const Index shift = move.cells;
+        if (std::abs(shift) >= own.cells)
+            continue;
+        for (Index outerRate = 0; outerRate < outerRates; ++outerRate)
+            for (Index innerRate = 0; innerRate < innerRates; ++innerRate)
+                for (Index outer = 0; outer < outerCells; ++outer) {
+                    const Index block = outer * own.cells * inner;
+                    const Index target = plane(outerRate, move.toRate, innerRate) + block;
+                    const Index source = plane(outerRate, move.fromRate, innerRate) + block;
+                    take(target + std::max<Index>(shift, 0) * inner, source + std::max<Index>(-shift, 0) * inner,
+                         (own.cells - std::abs(shift)) * inner, ln);
+                    if (own.cyclic && shift > 0)
+                        take(target, source + (own.cells - shift) * inner, shift * inner, ln);
+                    if (own.cyclic && shift < 0)
+                        take(target + (own.cells + shift) * inner, source, -shift * inner, ln);
+                }
+    }
+}
+
+void carryAlong(const MarkovModel &model, Index step, CarriedPaths &paths, CarriedPaths &scratch)
+{
+    for (std::size_t axis = model.space.axes().size(); axis-- > 0;) { // the last first: rates of the first decide ties
+        carryAlongAxis(model, axis, step, paths, scratch);
+        std::swap(paths, scratch);
+    }
+}
+
 } // namespace faintline

@@ -3,6 +3,7 @@
 #include "base/CellBox.h"
 #include "model/MarkovModel.h"
 
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <span>
@@ -53,5 +54,15 @@ struct PathEnd {
 /// the path's length. A path older than the record begins with the record. Source: Billon 2005 section 3 (τₙ, the
 /// latest reset). Oracle: enumeration of all paths.
 std::vector<PathStep> tracePath(const MarkovModel &model, const Grid &grid, const RecursionRecord &record, PathEnd end);
+
+/// The score of each state's best path, and a number that the path brings along.
+struct CarriedPaths {
+    std::vector<float> scores;
+    std::vector<std::int32_t> carried;
+};
+
+/// One step of the recursion, which carries the numbers along, before a reset: scores and ties are those of the recursion
+/// if the law is the same in all cells. `scratch` keeps memory between calls.
+void carryAlong(const MarkovModel &model, Index step, CarriedPaths &paths, CarriedPaths &scratch);
 
 } // namespace faintline
