@@ -22,7 +22,7 @@ namespace {
     /// The band in which a calibration counts events, which has two ends as well; none if it is a ring.
     std::optional<Index> countedBins(const AnalysisSettings &bare)
     {
-        if (!bare.family.isNone() || channelCount(bare.selection) > 1)
+        if (bare.family.isSum(channelCount(bare.selection)))
             return {};
         return Fft::fastLength(calibrationWindowSamples * bare.spectrogram.binsPerCell);
     }

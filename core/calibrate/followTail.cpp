@@ -64,7 +64,7 @@ namespace {
     {
         const FamilySettings &family = settings.family;
         const int channels = channelCount(settings.selection);
-        if (family.isNone() && channels == 1)
+        if (!family.isSum(channels))
             return spectralNoise(settings.spectrogram, windowSamples);
         const int room = int(std::ceil(ringBands(family, channels)));
         auto lines = spectralNoise(settings.spectrogram, room * windowSamples);

@@ -303,7 +303,7 @@ NormalisedFramesPointer familyFrames(const std::vector<NormalisedFramesPointer> 
                                      const FamilySettings &settings)
 {
     const NormalisedFramesPointer &first = channels.front();
-    if (settings.isNone() && channels.size() == 1)
+    if (!settings.isSum(int(channels.size())))
         return first;
     const Spectrogram *spectrogram = first->spectrogram();
     // Without a family, the detector excludes the ends of the band.
@@ -315,7 +315,7 @@ NormalisedFramesPointer familyFrames(const std::vector<NormalisedFramesPointer> 
 NormalisedFramesPointer familyFramesOnRing(const NormalisedFramesPointer &ring, const FamilySettings &settings,
                                            int channels)
 {
-    if (settings.isNone() && channels == 1)
+    if (!settings.isSum(channels))
         return ring;
     const Axis &frequency = ring->grid().axes.back();
     return std::make_shared<FamilyFrames>(std::vector{ring},

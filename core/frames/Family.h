@@ -32,6 +32,8 @@ struct FamilySettings {
     Present present = Present::Together;
 
     bool isNone() const { return relation == Relation::None; }
+    /// Whether the evidence of several lines is added: of members, or of channels.
+    bool isSum(int channels) const { return !isNone() || channels > 1; }
 
     static const std::vector<Field<FamilySettings>> &fields();
     bool operator==(const FamilySettings &) const = default;

@@ -94,8 +94,7 @@ namespace {
 std::vector<FamilyTooth> familyTeeth(const Analysis &analysis, std::span<const PathCell> path, std::size_t model,
                                      const RunContext &context)
 {
-    const bool isSum = !analysis.settings.family.isNone() || analysis.lines.size() > 1;
-    if (!isSum || path.empty())
+    if (!analysis.settings.family.isSum(int(analysis.lines.size())) || path.empty())
         return {};
     for (const PathCell &at : path)
         checkInside(analysis, at);

@@ -80,7 +80,7 @@ namespace {
     /// Families and several channels have no simulated noise to compare with, so that nothing is left out of theirs.
     bool isPlain(const AnalysisSettings &settings)
     {
-        return settings.family.isNone() && channelCount(settings.selection) == 1;
+        return !settings.family.isSum(channelCount(settings.selection));
     }
 
     double loudestOf(const AnalysisPlan &plan)
