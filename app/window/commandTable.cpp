@@ -34,7 +34,6 @@
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
 #include "detect/makeDetector.h"
-#include "frames/Spectrogram.h"
 #include "widgets/base/icon.h"
 #include "widgets/base/settingWords.h"
 #include "widgets/events/EventCard.h"
@@ -564,14 +563,13 @@ void CommandTable::about()
 void CommandTable::injectLine()
 {
     const auto &analysis = w.m_document.analysis();
-    const Spectrogram *spectrogram = analysis ? analysis->frames->spectrogram() : nullptr;
-    if (!spectrogram)
+    if (!analysis || !analysis->frames->geometry().isOfSpectra())
         return;
     const RecordingInfo &info = w.m_document.recording()->info();
     const Viewport &viewport = w.m_document.viewport();
     const Viewport::Point at =
         viewport.cursor().value_or(Viewport::Point{viewport.full().time.middle(), viewport.full().frequency.middle()});
-    InjectDialog dialog(info, at.seconds, at.hz, spectrogram->windowSeconds(), &w);
+    InjectDialog dialog(info, at.seconds, at.hz, analysis->frames->geometry().windowSeconds, &w);
     if (dialog.exec() == QDialog::Accepted)
         w.m_controller.inject(dialog.line());
 }

@@ -16,6 +16,8 @@ FrameGeometry NormalisedFrames::geometry() const
         geometry.window = of->settings().window;
         geometry.windowSeconds = of->windowSeconds();
         geometry.windowSamples = of->windowSamples();
+        geometry.hopSamples = of->hopSamples();
+        geometry.firstSample = of->firstSample();
         geometry.hasRealEnds = of->hasRealEnds();
     }
     return geometry;

@@ -21,9 +21,14 @@ struct FrameGeometry {
     WindowShape window = WindowShape::Hann;
     double windowSeconds = 0.0; ///< T_FT
     int windowSamples = 0;      ///< the same in samples; 0: frames that are no spectra of a recording
+    int hopSamples = 0;         ///< from frame to frame
+    Index firstSample = 0;      ///< of the recording, in the first frame
     bool hasRealEnds = false;   ///< Spectrogram::hasRealEnds
 
     bool isOfSpectra() const { return windowSamples > 0; }
+    /// The samples of the recording in a frame: from beginOf to endOf - 1.
+    Index beginOf(Index frame) const { return firstSample + frame * hopSamples; }
+    Index endOf(Index frame) const { return beginOf(frame) + windowSamples; }
 };
 
 /// Frames whose noise has mean 1 in every cell: the only input of a detector.

@@ -142,9 +142,10 @@ ChannelPicture channelPicture(const RecordingPointer &recording, const AnalysisS
     alone.settings.selection.channels.clear();
     alone.settings.family = {};
     alone.recording = recording;
-    normalisePlan(alone, std::make_shared<Spectrogram>(recording, alone.settings.spectrogram, alone.settings.selection),
-                  context.part(0.0, noiseShare));
-    if (const Spectrogram *spectrogram = alone.frames->spectrogram(); spectrogram && alone.background)
+    const auto spectrogram =
+        std::make_shared<Spectrogram>(recording, alone.settings.spectrogram, alone.settings.selection);
+    normalisePlan(alone, spectrogram, context.part(0.0, noiseShare));
+    if (alone.background)
         if (const std::string silence = silenceWords(*spectrogram, *alone.background, context); !silence.empty())
             throw Error(recording->info().path, silence);
     const FrameStretch all{0, alone.time().count};

@@ -1,8 +1,7 @@
 #include "inspect/learnMotion.h"
 
+#include "analyse/preparePlan.h"
 #include "base/Error.h"
-#include "calibrate/calibrate.h"
-#include "noise/NoiseNormaliser.h"
 #include "plan/sureStatistic.h"
 #include "refine/bothWays.h"
 #include "refine/pathStrips.h"
@@ -115,11 +114,12 @@ LearnedMotion learnMotion(const Analysis &analysis, const RunContext &context)
     motion.tracks = tracks.size();
     motion.frames = std::accumulate(changes.begin(), changes.end(), 0.0);
     motion.presentLnK = analysis.calibration->lnK;
-    const AnalysisSettings settings = withLearnedMotion(analysis, motion);
-    const auto calibration = calibrateBand(settings, *analysis.frames->spectrogram(), context.part(0.8, 1.0));
-    motion.learnedLnK = calibration->lnK;
+    AnalysisPlan learned = analysis;
+    learned.settings = withLearnedMotion(analysis, motion);
+    calibratePlan(learned, context.part(0.8, 1.0));
+    motion.learnedLnK = learned.calibration->lnK;
     motion.presentThreshold = analysis.threshold;
-    motion.learnedThreshold = thresholdNats(settings.decide, *calibration, analysis.cellFramesPerHour);
+    motion.learnedThreshold = learned.threshold;
     motion.gainPerFrame = motion.learnedLnK - motion.presentLnK;
     for (std::size_t i = 0; i < changes.size(); ++i)
         if (changes[i] > 0.0)

@@ -209,13 +209,11 @@ std::shared_ptr<const Analysis> analysisSoFar(const LiveView &view)
         return nullptr;
     auto analysis = std::make_shared<Analysis>();
     static_cast<AnalysisPlan &>(*analysis) = *view.plan;
-    const Spectrogram &live = *view.plan->frames->spectrogram();
     // Only frames that exist.
-    const Index samples = live.firstSample() + (view.time.count - 1) * live.hopSamples() + live.windowSamples();
+    const Index samples = analysis->frames->geometry().endOf(view.time.count - 1);
     analysis->recording = std::make_shared<HeardRecording>(view.written, samples);
     for (NormalisedFramesPointer &line : analysis->lines)
-        line = static_cast<const CausalSpectrogram &>(*line).over(
-            std::make_shared<Spectrogram>(analysis->recording, live.settings(), line->spectrogram()->selection()));
+        line = static_cast<const CausalSpectrogram &>(*line).over(analysis->recording);
     analysis->frames = familyFrames(analysis->lines, analysis->settings.family);
     analysis->input = view.input;
     analysis->statistic = view.statistic;

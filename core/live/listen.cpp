@@ -125,16 +125,15 @@ namespace {
             for (Index frame = 0; frame < m_result.plan.time().count; ++frame) {
                 if (m_sinks.wish)
                     frame = followWish(frame);
-                const Spectrogram &spectrogram = *m_result.plan.frames->spectrogram();
-                const Index first = spectrogram.firstSample() + frame * spectrogram.hopSamples();
-                if (!m_buffer->waitFor(first + spectrogram.windowSamples()))
+                const FrameGeometry geometry = m_result.plan.frames->geometry();
+                if (!m_buffer->waitFor(geometry.endOf(frame)))
                     break;
                 if (isLate()) {
                     m_result.isAnalysedToTheEnd = false;
                     break;
                 }
-                take(frame, first + spectrogram.windowSamples());
-                m_buffer->release(first + spectrogram.hopSamples());
+                take(frame, geometry);
+                m_buffer->release(geometry.beginOf(frame + 1));
             }
             if (m_prepared.valid() || (m_sinks.wish && m_sinks.wish()))
                 tellTooLate();
@@ -178,15 +177,16 @@ namespace {
                 m_sinks.plan(m_result.plan);
         }
 
-        void take(Index frame, Index end)
+        void take(Index frame, const FrameGeometry &geometry)
         {
+            const Index end = geometry.endOf(frame);
             const NormalisedFrames &frames = *m_result.plan.frames;
             m_y.resize(std::size_t(frames.grid().size()));
             m_statistic.resize(m_y.size());
             frames.read(frame, 1, m_y);
             const bool isSilent =
                 m_result.silentCount >= 0 && std::ranges::none_of(m_y, [](float y) { return y > 0.0f; });
-            m_result.silentCount = isSilent ? end - m_result.plan.frames->spectrogram()->firstSample() : -1;
+            m_result.silentCount = isSilent ? end - geometry.firstSample : -1;
             m_chain->update(frame, m_y, m_statistic);
             m_follower->take(frame);
             const std::lock_guard lock(m_mutex);
@@ -254,11 +254,10 @@ namespace {
                 changeChain(std::move(next));
                 return frame;
             }
-            const Spectrogram &before = *next.frames->spectrogram();
             next.settings = settings;
             // Frames start at the next sample.
             next.settings.selection.fromSeconds =
-                double(before.firstSample() + frame * before.hopSamples()) / m_format.sampleRateHz;
+                double(next.frames->geometry().beginOf(frame)) / m_format.sampleRateHz;
             const auto spectrogram =
                 std::make_shared<Spectrogram>(next.recording, settings.spectrogram, next.settings.selection);
             m_buffer->widen(bytesFor(next.settings));

@@ -69,9 +69,11 @@ void CausalSpectrogram::keepStates() const
     m_keepsStates = true;
 }
 
-std::shared_ptr<const CausalSpectrogram> CausalSpectrogram::over(std::shared_ptr<const Spectrogram> spectrogram) const
+std::shared_ptr<const CausalSpectrogram> CausalSpectrogram::over(RecordingPointer recording) const
 {
-    return std::shared_ptr<const CausalSpectrogram>(new CausalSpectrogram(std::move(spectrogram), *this));
+    auto same =
+        std::make_shared<Spectrogram>(std::move(recording), m_spectrogram->settings(), m_spectrogram->selection());
+    return std::shared_ptr<const CausalSpectrogram>(new CausalSpectrogram(std::move(same), *this));
 }
 
 Index CausalSpectrogram::samplesOfFirstBlock(const Spectrogram &spectrogram, const NormaliserSettings &settings)

@@ -39,7 +39,7 @@ public:
     /// Stores states from now on, for `over`. For streams, whose background can be computed only once, in order.
     void keepStates() const;
     /// The same frames over a recording of the same samples, from the stored states. Reads nothing.
-    std::shared_ptr<const CausalSpectrogram> over(std::shared_ptr<const Spectrogram> spectrogram) const;
+    std::shared_ptr<const CausalSpectrogram> over(RecordingPointer recording) const;
 
     /// Background of the first block, valid at any time.
     std::shared_ptr<const NoiseBackground> firstBackground() const { return m_firstBackground; }
