@@ -2,11 +2,11 @@
 #include "app/cli/inRange.h"
 
 #include "analyse/usable.h"
+#include "app/cli/EventCommand.h"
 #include "base/files/AtomicFile.h"
 #include "base/files/keepNoHoles.h"
 #include "base/json.h"
 #include "exchange/writeEvents.h"
-#include "live/EventCommand.h"
 #include "live/listen.h"
 #include "live/sources/IqSource.h"
 #include "live/sources/PipeSource.h"

@@ -1,9 +1,9 @@
 #include "app/cli/commands.h"
 #include "app/cli/readProvenance.h"
 
+#include "app/cli/Interruption.h"
 #include "base/Error.h"
 #include "base/editDistance.h"
-#include "base/files/Interruption.h"
 #include "base/files/standardStreams.h"
 #include "base/numberText.h"
 #include "base/oneLine.h"

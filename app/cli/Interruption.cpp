@@ -1,4 +1,4 @@
-#include "base/files/Interruption.h"
+#include "app/cli/Interruption.h"
 
 #include "base/files/temporaries.h"
 

@@ -1,4 +1,4 @@
-#include "live/EventCommand.h"
+#include "app/cli/EventCommand.h"
 
 #include "base/Error.h"
 
