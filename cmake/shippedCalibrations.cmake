@@ -8,7 +8,7 @@ foreach(file IN LISTS files)
     cmake_path(GET file STEM name)
     string(APPEND rows "    {\"${name}\", R\"key(${key})key\", R\"text(${text})text\"},\n")
 endforeach()
-file(WRITE ${OUT} "#include \"calibrate/shippedCalibrations.h\"
+file(WRITE ${OUT} "#include \"calibrate/CalibrationStore.h\"
 
 #include <array>
 

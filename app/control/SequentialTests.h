@@ -3,7 +3,6 @@
 #include "app/base/JobRunner.h"
 #include "detect/inspectStages.h"
 #include "evaluate/sequential/ScanTest.h"
-#include "evaluate/sequential/scanCurves.h"
 #include "frames/NormalisedFrames.h"
 #include "plan/AnalysisSettings.h"
 

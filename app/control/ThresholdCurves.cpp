@@ -3,7 +3,7 @@
 #include "app/control/AnalysisController.h"
 #include "app/document/Document.h"
 #include "app/document/statisticUnit.h"
-#include "evaluate/theory/closedForm.h"
+#include "evaluate/theory/theory.h"
 #include "widgets/plot/ExceedancePlot.h"
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 #include "base/files/AtomicFile.h"
 #include "base/files/checksum.h"
 #include "base/json.h"
-#include "calibrate/shippedCalibrations.h"
 #include "plan/calibrationVersion.h"
 
 #include <algorithm>

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -81,5 +82,15 @@ private:
 
     std::filesystem::path m_folder;
 };
+
+/// A calibration that is part of the program: a file of resources/calibrations.
+struct ShippedCalibration {
+    std::string_view name; ///< of the file, without ending
+    std::string_view key;
+    std::string_view text; ///< as a CalibrationStore writes it
+};
+
+/// All of them, in the order of their names.
+std::span<const ShippedCalibration> shippedCalibrations();
 
 } // namespace faintline

@@ -1,7 +1,7 @@
 #include "calibrate/followTail.h"
 
 #include "base/Random.h"
-#include "calibrate/blockRates.h"
+#include "calibrate/measureRareRates.h"
 #include "detect/Smd.h"
 #include "frames/channelCount.h"
 #include "noise/NoiseNormaliser.h"

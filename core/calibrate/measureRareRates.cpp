@@ -268,4 +268,245 @@ RareRates measureRareRates(const std::function<std::unique_ptr<Detector>()> &mak
     return result;
 }
 
+namespace {
+
+    constexpr Index repetitions = 6; ///< independent ones, whose scatter gives the errors
+    constexpr Index mostBlocks = 250;
+    constexpr Index fewestBlocks = 40;
+    constexpr double framesOfTilt = 120000.0; ///< simulated for one tilt, all repetitions together
+    constexpr std::size_t mostTilts = 30;
+    constexpr double levelSpacingDeviations = 0.25; ///< between levels, in deviations of V
+    constexpr double firstLevelDeviations = 1.0;    ///< deviations above the mean of V
+    constexpr double blockRateError = 0.5;          ///< relative, of an accepted rate
+    constexpr double blockDepthShare = 0.7;         ///< fraction of leastLnRate that must be reached with this error
+
+    /// V and weight of the blocks of one run at their end.
+    struct TiltedBlocks {
+        double lnZ = 0.0;
+        std::vector<double> values;
+        std::vector<double> weights; ///< Σ = 1
+    };
+
+    /// Subtracts the logarithm of the mean weight from the logarithms of weights; returns it.
+    double normalise(std::vector<double> &lnWeights)
+    {
+        const double most = *std::max_element(lnWeights.begin(), lnWeights.end());
+        double sum = 0.0;
+        for (const double ln : lnWeights)
+            sum += std::exp(ln - most);
+        const double lnMean = most + std::log(sum / double(lnWeights.size()));
+        for (double &ln : lnWeights)
+            ln -= lnMean;
+        return lnMean;
+    }
+
+    /// Number of equal weights that would scatter as much.
+    double effectiveSize(const std::vector<double> &lnWeights)
+    {
+        double squares = 0.0;
+        for (const double ln : lnWeights)
+            squares += std::exp(2.0 * ln);
+        return double(lnWeights.size()) * double(lnWeights.size()) / squares;
+    }
+
+    /// Blocks of noise side by side, under one tilt.
+    class BlockRun
+    {
+    public:
+        BlockRun(const std::function<std::unique_ptr<NoiseWalker>()> &makeWalker, Index blocks, double tilt,
+                 Random random)
+            : m_tilt(tilt), m_random(random), m_values(std::size_t(blocks), 0.0), m_lnWeights(m_values.size(), 0.0)
+        {
+            for (Index block = 0; block < blocks; ++block)
+                m_walkers.push_back(makeWalker());
+        }
+
+        TiltedBlocks run(Index frames)
+        {
+            for (Index frame = 0; frame < frames; ++frame) {
+                step();
+                if (m_tilt != 0.0 && effectiveSize(m_lnWeights) < 0.5 * double(m_values.size()))
+                    resample();
+            }
+            for (double &ln : m_lnWeights)
+                ln = std::exp(ln) / double(m_values.size());
+            return {m_lnZ, std::move(m_values), std::move(m_lnWeights)};
+        }
+
+    private:
+        void step()
+        {
+            for (std::size_t i = 0; i < m_values.size(); ++i) {
+                const double value = m_walkers[i]->step(m_random);
+                m_lnWeights[i] += m_tilt * (value - m_values[i]);
+                m_values[i] = value;
+            }
+            m_lnZ += normalise(m_lnWeights);
+        }
+
+        /// Systematic resampling: block i continues ⌊weight⌋ or ⌈weight⌉ times.
+        void resample()
+        {
+            std::vector<Index> copies(m_values.size(), 0);
+            double position = m_random.uniform();
+            double sum = 0.0;
+            for (std::size_t i = 0; i < copies.size(); ++i)
+                for (sum += std::exp(m_lnWeights[i]); position < sum && position < double(copies.size()); ++position)
+                    ++copies[i];
+            std::size_t free = 0;
+            for (std::size_t i = 0; i < copies.size(); ++i) {
+                if (copies[i] < 2)
+                    continue;
+                const NoiseParticle state = m_walkers[i]->particle(m_values[i]);
+                for (; copies[i] > 1; --copies[i]) {
+                    while (free < copies.size() && copies[free] != 0)
+                        ++free;
+                    if (free == copies.size())
+                        break; // rounding
+                    m_walkers[free]->take(state);
+                    m_values[free] = state.reached;
+                    copies[free] = 1;
+                }
+            }
+            std::fill(m_lnWeights.begin(), m_lnWeights.end(), 0.0);
+        }
+
+        double m_tilt;
+        Random m_random;
+        std::vector<std::unique_ptr<NoiseWalker>> m_walkers;
+        std::vector<double> m_values;
+        std::vector<double> m_lnWeights; ///< of mean weight 1
+        double m_lnZ = 0.0;
+    };
+
+    struct Moments {
+        double mean = 0.0;
+        double deviation = 0.0;
+    };
+
+    Moments momentsOf(const std::vector<TiltedBlocks> &runs)
+    {
+        double mean = 0.0;
+        double square = 0.0;
+        const auto count = double(runs.size());
+        for (const TiltedBlocks &run : runs)
+            for (std::size_t i = 0; i < run.values.size(); ++i) {
+                mean += run.weights[i] * run.values[i] / count;
+                square += run.weights[i] * run.values[i] * run.values[i] / count;
+            }
+        return {mean, std::sqrt(std::max(0.0, square - mean * mean))};
+    }
+
+    /// One repetition: its runs, one for each tilt.
+    class Tail
+    {
+    public:
+        void add(double tilt, TiltedBlocks run)
+        {
+            m_tilts.push_back(tilt);
+            m_runs.push_back(std::move(run));
+        }
+
+        /// P(V > level)
+        double exceedance(double level) const
+        {
+            double sum = 0.0;
+            for (const TiltedBlocks &run : m_runs)
+                for (std::size_t i = 0; i < run.values.size(); ++i)
+                    if (run.values[i] > level)
+                        sum += run.weights[i] / density(run.values[i]);
+            return sum;
+        }
+
+    private:
+        /// Sum of the runs' densities over that of noise.
+        double density(double value) const
+        {
+            double sum = 0.0;
+            for (std::size_t j = 0; j < m_runs.size(); ++j)
+                sum += std::exp(m_tilts[j] * value - m_runs[j].lnZ);
+            return sum;
+        }
+
+        std::vector<double> m_tilts;
+        std::vector<TiltedBlocks> m_runs;
+    };
+
+    /// Appends a level's rate; returns whether its error is small enough.
+    bool append(const std::vector<Tail> &tails, double level, double cellFrames, RareRates &result)
+    {
+        double mean = 0.0;
+        double square = 0.0;
+        const auto count = double(tails.size());
+        for (const Tail &tail : tails) {
+            const double p = tail.exceedance(level);
+            mean += p / count;
+            square += p * p / count;
+        }
+        if (!(mean > 0.0 && mean < 1.0))
+            return mean >= 1.0; // such a level is not rare
+        const double error = std::sqrt(std::max(0.0, square / (mean * mean) - 1.0) / (count - 1.0));
+        if (error > blockRateError)
+            return false;
+        result.levels.push_back(level);
+        result.lnRates.push_back(std::log(-std::log1p(-mean) / cellFrames));
+        // The scatter of six repetitions is small by chance now and then.
+        const double least = result.relativeErrors.empty() ? 0.0 : result.relativeErrors.back();
+        result.relativeErrors.push_back(std::max(error, least));
+        return true;
+    }
+
+} // namespace
+
+RareRates measureBlockRates(const std::function<std::unique_ptr<Detector>()> &makeDetector,
+                            const std::function<std::unique_ptr<NoiseStream>()> &makeNoise, Index framesPerBlock,
+                            const SplittingSettings &settings, const RunContext &context)
+{
+    constexpr std::size_t mostBytes = std::size_t(64) << 20;
+    const auto makeWalker = [&] { return std::make_unique<NoiseWalker>(makeDetector(), makeNoise()); };
+    const auto state = makeDetector()->state();
+    const Index blocks = std::min(mostBlocks, Index(framesOfTilt / double(repetitions * framesPerBlock)));
+    if (!state || state->bytes() * std::size_t(blocks * repetitions) > mostBytes || blocks < fewestBlocks)
+        return {};
+    const double cellFrames = double(makeNoise()->cells()) * double(framesPerBlock);
+
+    std::vector<Tail> tails{std::size_t(repetitions)};
+    double tilt = 0.0;
+    double from = 0.0;
+    double spacing = 1.0;
+    double highest = -std::numeric_limits<double>::infinity();
+    for (std::size_t number = 0; number < mostTilts; ++number) {
+        context.checkpoint(double(number) / double(mostTilts), "simulating rare blocks of the noise");
+        std::vector<TiltedBlocks> runs{std::size_t(repetitions)};
+        parallelFor(repetitions, context, "noise", [&] {
+            return [&](Index repetition) {
+                const Random random(settings.seed + number, std::uint64_t(repetition));
+                runs[std::size_t(repetition)] = BlockRun(makeWalker, blocks, tilt, random).run(framesPerBlock);
+            };
+        });
+        const auto [mean, deviation] = momentsOf(runs);
+        if (!(deviation > 0.0) || mean < highest)
+            break; // noise gets no further
+        highest = mean;
+        for (std::size_t i = 0; i < runs.size(); ++i)
+            tails[i].add(tilt, std::move(runs[i]));
+        if (number == 0) {
+            from = mean + firstLevelDeviations * deviation;
+            spacing = levelSpacingDeviations * deviation;
+        }
+        double rate = 0.0;
+        for (const Tail &tail : tails)
+            rate += tail.exceedance(mean) / (cellFrames * double(repetitions));
+        if (rate < std::exp(settings.leastLnRate))
+            break;
+        tilt += 1.0 / deviation;
+    }
+    RareRates result;
+    for (double level = from; level <= highest && append(tails, level, cellFrames, result);)
+        level += spacing;
+    if (result.isEmpty() || result.lnRates.back() > blockDepthShare * settings.leastLnRate)
+        return {};
+    return result;
+}
+
 } // namespace faintline

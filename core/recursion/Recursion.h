@@ -6,7 +6,6 @@
 #include "recursion/AxisStep.h"
 #include "recursion/Departures.h"
 #include "recursion/SlantedTiles.h"
-#include "recursion/TiledPlanes.h"
 #include "recursion/finishMax.h"
 
 #include <algorithm>

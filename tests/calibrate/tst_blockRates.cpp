@@ -1,5 +1,5 @@
 #include "base/Random.h"
-#include "calibrate/blockRates.h"
+#include "calibrate/measureRareRates.h"
 #include "detect/BlockViterbi.h"
 #include "plan/AnalysisSettings.h"
 #include "support/test.h"

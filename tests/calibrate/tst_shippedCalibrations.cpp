@@ -2,7 +2,6 @@
 #include "calibrate/CalibrationRequest.h"
 #include "calibrate/CalibrationStore.h"
 #include "calibrate/calibrate.h"
-#include "calibrate/shippedCalibrations.h"
 #include "support/test.h"
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 #include "support/test.h"
 
 #include "evaluate/experiments/LineTrials.h"
-#include "evaluate/experiments/NoisyField.h"
 #include "evaluate/experiments/peers.h"
 #include "support/errors.h"
 

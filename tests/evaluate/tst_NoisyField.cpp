@@ -1,4 +1,4 @@
-#include "evaluate/experiments/NoisyField.h"
+#include "evaluate/experiments/LineTrials.h"
 #include "support/test.h"
 
 #include "base/Random.h"

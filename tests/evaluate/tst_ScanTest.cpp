@@ -2,7 +2,6 @@
 #include "detect/averagedStages.h"
 #include "detect/inspectStages.h"
 #include "evaluate/sequential/ScanTest.h"
-#include "evaluate/sequential/scanCurves.h"
 #include "evaluate/sequential/simulate.h"
 #include "evaluate/theory/walkOnLine.h"
 #include "support/test.h"

@@ -1,5 +1,5 @@
 #include "calibrate/calibrate.h"
-#include "evaluate/theory/closedForm.h"
+#include "evaluate/theory/theory.h"
 #include "support/test.h"
 
 #include <cmath>

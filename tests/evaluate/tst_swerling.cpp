@@ -3,7 +3,7 @@
 
 #include "base/Random.h"
 #include "detect/Integrator.h"
-#include "evaluate/experiments/NoisyField.h"
+#include "evaluate/experiments/LineTrials.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "noise/pings/PingPower.h"
+#include "noise/pings/NormalisedPings.h"
 #include "support/frames.h"
 #include "support/test.h"
 

@@ -1,7 +1,7 @@
 #include "noise/openFrames.h"
 #include "support/test.h"
 
-#include "signal/formats/NumPyPower.h"
+#include "signal/formats/NumPy.h"
 #include "support/recordings.h"
 
 #include <cmath>

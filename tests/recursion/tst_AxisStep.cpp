@@ -2,7 +2,6 @@
 #include "support/test.h"
 
 #include "base/Random.h"
-#include "recursion/TiledPlanes.h"
 
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 #include "support/test.h"
-#include "track/trimOnset.h"
+#include "track/DetectionChain.h"
 
 using namespace faintline;
 

@@ -1,4 +1,4 @@
-// Stands in for SoundStream.cpp and rtAudio.cpp where RtAudio or PulseAudio is not installed: there are no sound devices.
+// Stands in for SoundStream.cpp where RtAudio or PulseAudio is not installed: there are no sound devices.
 
 #include "base/Error.h"
 #include "live/sources/SoundStream.h"
