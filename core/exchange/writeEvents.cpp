@@ -7,7 +7,6 @@
 #include "detect/statisticDecimals.h"
 #include "exchange/csvText.h"
 #include "exchange/reviewedText.h"
-#include "refine/secondLook.h"
 
 #include <algorithm>
 #include <cmath>
@@ -195,7 +194,7 @@ std::string eventsJson(const AnalysisPlan &plan, const std::vector<Event> &event
     json["events"] = Json::array();
     for (const Event &e : events)
         json["events"].push_back(eventJson(e, plan));
-    if (looksTwice(plan))
+    if (OptionalColumns::of(plan).secondPass)
         json["areas"] = Json::array();
     for (const AreaEvent &area : areas) {
         Json one;

@@ -1,4 +1,4 @@
-#include "signal/formats/filterbankAxes.h"
+#include "signal/formats/SigprocFile.h"
 #include "support/test.h"
 
 #include "support/errors.h"
