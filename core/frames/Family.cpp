@@ -14,8 +14,6 @@ namespace faintline {
 
 namespace {
 
-    constexpr double largestMultiple = 64.0;
-
     /// The smallest distance between two members; ∞ for a single one.
     double closest(std::vector<double> members)
     {
@@ -67,7 +65,7 @@ void checkFamily(const FamilySettings &settings)
         refuse("must not name a member twice");
     if (settings.relation == FamilySettings::Relation::Harmonics)
         for (const double member : settings.members)
-            if (!(member > 0.0 && member <= largestMultiple))
+            if (!(member > 0.0 && member <= 64.0))
                 refuse("multiples of a fundamental must lie above 0 and be at most 64");
 }
 
@@ -99,13 +97,11 @@ Axis familyAxis(const FamilySettings &settings, const Axis &band)
             refuse("must lie at least a bin apart; a longer window (spectrogram.windowSeconds) has narrower bins");
         return band;
     }
-    constexpr double memberSpacingBins = 3.0; // bins between neighbouring members
     Axis axis = band;
     axis.name = "fundamental " + band.name;
     axis.step = band.step / familyCellsPerBin(settings);
     const auto [least, most] = std::minmax_element(settings.members.begin(), settings.members.end());
-    const double first =
-        std::max({band.step, memberSpacingBins * band.step / closest(settings.members), band.value(0.0) / *least});
+    const double first = std::max({band.step, 3.0 * band.step / closest(settings.members), band.value(0.0) / *least});
     axis.first = axis.step * std::ceil(first / axis.step);
     axis.count = Index(std::floor((band.last() / *most - axis.first) / axis.step)) + 1;
     if (axis.count < 1)

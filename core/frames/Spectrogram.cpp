@@ -70,27 +70,26 @@ namespace {
         return field;
     }
 
-    constexpr double lowestHz = -1e12; ///< beyond any band
-    constexpr double highestHz = 1e12;
+    constexpr double openHz = 1e12; ///< beyond any band
 
     /// The lower or upper edge of the band. Tables and files know the whole band by its two open edges, so that either
     /// one can be given alone.
     Field<SelectionSettings> edge(double SelectionSettings::*member, std::string name, std::string sentence)
     {
         const bool isLow = member == &SelectionSettings::lowHz;
-        const double open = isLow ? lowestHz : highestHz;
-        auto result = field(member, std::move(name), "Hz", lowestHz, highestHz, std::move(sentence))
+        const double open = isLow ? -openHz : openHz;
+        auto result = field(member, std::move(name), "Hz", -openHz, openHz, std::move(sentence))
                           .withWord(open, isLow ? "lowest" : "highest");
         result.get = [member, open](const SelectionSettings &selection) -> std::optional<FieldValue> {
             return isWholeBand(selection) ? open : selection.*member;
         };
         result.set = [member](SelectionSettings &selection, const FieldValue &value) {
             if (isWholeBand(selection)) {
-                selection.lowHz = lowestHz;
-                selection.highHz = highestHz;
+                selection.lowHz = -openHz;
+                selection.highHz = openHz;
             }
             selection.*member = std::get<double>(value);
-            if (selection.lowHz <= lowestHz && selection.highHz >= highestHz)
+            if (selection.lowHz <= -openHz && selection.highHz >= openHz)
                 selection.lowHz = selection.highHz = 0.0;
         };
         return result;
@@ -231,10 +230,8 @@ double Spectrogram::automaticWindowSeconds(const RecordingInfo &info)
     const double mantissa = wanted / decade;
     double chosen = decade * (mantissa < 1.5 ? 1.0 : mantissa < 3.5 ? 2.0 : mantissa < 7.5 ? 5.0 : 10.0);
     // At least 16 samples, so that a spectrum exists; at most a quarter of the recording, and limited by memory.
-    constexpr double windowMinimumSamples = 16.0;
-    constexpr double automaticLimitSamples = 4e6;
-    const double least = windowMinimumSamples / info.sampleRateHz;
-    chosen = std::clamp(chosen, least, automaticLimitSamples / info.sampleRateHz);
+    const double least = 16.0 / info.sampleRateHz;
+    chosen = std::clamp(chosen, least, 4e6 / info.sampleRateHz);
     if (info.places.hasGaps()) // frames that reach into gaps are lost: a quarter of a stretch's at most
         chosen = std::min(chosen, std::max(double(info.places.typicalCount()) / info.sampleRateHz / 4.0, least));
     return std::min(chosen, std::max(info.durationSeconds() / 4.0, 1.0 / info.sampleRateHz));
@@ -242,11 +239,10 @@ double Spectrogram::automaticWindowSeconds(const RecordingInfo &info)
 
 Spectrogram::Steps Spectrogram::stepsOf(const SpectrogramSettings &settings, const RecordingInfo &info)
 {
-    constexpr double limitSamples = 1e8; // longer windows are rejected where they are created
     const double wanted =
         (settings.windowSeconds > 0.0 ? settings.windowSeconds : automaticWindowSeconds(info)) * info.sampleRateHz;
-    const int samples = int(std::llround(
-        std::clamp(wanted * settings.binsPerCell, 2.0 * settings.binsPerCell, limitSamples) / settings.binsPerCell));
+    const int samples = int(std::llround(std::clamp(wanted * settings.binsPerCell, 2.0 * settings.binsPerCell, 1e8)
+                                         / settings.binsPerCell)); // longer ones are rejected later
     return {hopOf(samples, settings) / info.sampleRateHz,
             info.sampleRateHz / Fft::fastLength(samples * settings.binsPerCell)};
 }

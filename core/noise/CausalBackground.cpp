@@ -2,6 +2,7 @@
 
 #include "noise/averageWhileSteady.h"
 #include "noise/bandLevels.h"
+#include "noise/constants.h"
 #include "noise/levels.h"
 
 #include <algorithm>
@@ -9,8 +10,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr std::size_t pastBlocksAveraged = 7; ///< the newest and six previous ones
 
     double scatterOf(const CausalGeometry &geometry, double cells)
     {
@@ -55,7 +54,6 @@ void CausalBackground::keepWindow(std::span<const float> power)
 
 double CausalBackground::marginOf(std::size_t blocks) const
 {
-    constexpr double alarmsPerExcess = 30.0; // B
     const double cells = 2.0 * double(m_geometry.halfWidthCells) + 1.0;
     const auto windows = double(std::ssize(m_windows) / m_cells);
     const double variance =
@@ -73,7 +71,7 @@ void CausalBackground::renew()
     // Blocks this many renewals apart share no window.
     const auto apart =
         std::size_t((m_geometry.blockWindows + m_geometry.renewalWindows() - 1) / m_geometry.renewalWindows());
-    if (m_blocks.size() > apart * (pastBlocksAveraged - 1) + 1)
+    if (m_blocks.size() > apart * std::size_t(steadyBlocks) + 1)
         m_blocks.pop_front();
     std::vector<float> medians;
     std::vector<float> rows;
@@ -119,8 +117,7 @@ const NoiseBackground &CausalBackground::next(std::span<const float> power)
 std::size_t CausalBackground::bytes() const
 {
     const auto cells = std::size_t(m_cells);
-    constexpr std::size_t perBlock = 2 * sizeof(float) + 1;
-    return sizeof *this + m_windows.capacity() * sizeof(float) + (m_blocks.size() + 1) * cells * perBlock
+    return sizeof *this + m_windows.capacity() * sizeof(float) + (m_blocks.size() + 1) * cells * (2 * sizeof(float) + 1)
            + cells * sizeof(float) + m_levels.bytes();
 }
 

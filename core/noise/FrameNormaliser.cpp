@@ -2,6 +2,7 @@
 
 #include "base/fastmath.h"
 #include "base/multiversion.h"
+#include "noise/constants.h"
 #include "noise/levels.h"
 #include "noise/medians.h"
 
@@ -63,8 +64,7 @@ namespace {
         // Handles changes shorter than the spacing of the levels. For most frames counting suffices: the median of a
         // sub-band exceeds a limit if more than half of its values do.
         const auto bands = std::size_t(NoiseBackground::subBandCount(double(values.size()) / binsPerCell));
-        constexpr Index half = 20;
-        const double allowed = 1.0 + 4.0 * inverseLn2 / std::sqrt(2.0 * half + 1.0);
+        const double allowed = 1.0 + 4.0 * inverseLn2 / std::sqrt(2.0 * clickHalfWidthCells + 1.0);
         const auto limit = float(allowed * std::numbers::ln2_v<double>);
         bool isLoud = false;
         for (std::size_t band = 0; band < bands; ++band) {
@@ -79,7 +79,7 @@ namespace {
         std::vector<float> ln;
         for (std::size_t bin = 0; bin < values.size(); bin += stride)
             ln.push_back(std::log(std::max(values[bin], 1e-6f)));
-        const std::vector<float> medians = runningMedian(ln, half);
+        const std::vector<float> medians = runningMedian(ln, clickHalfWidthCells);
         for (std::size_t bin = 0; bin < values.size(); ++bin) {
             const float excess = std::exp(medians[bin / stride]) / limit;
             if (excess > 1.0f)

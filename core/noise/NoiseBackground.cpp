@@ -3,6 +3,7 @@
 #include "base/fastmath.h"
 #include "base/multiversion.h"
 #include "noise/between.h"
+#include "noise/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr float silence = NoiseBackground::silence;
 
     /// Interpolates ln powers between two blocks. Between silence and noise the noisy block is used for both.
     FAINTLINE_MULTIVERSION
@@ -24,7 +23,7 @@ namespace {
             const float least = a < b ? a : b;
             const float most = a < b ? b : a;
             const float mixed = a + fraction * (b - a);
-            ln[cell] = least <= silence ? most : mixed;
+            ln[cell] = least <= NoiseBackground::silence ? most : mixed;
         }
     }
 
@@ -40,7 +39,6 @@ namespace {
     /// and the level changes abruptly half-way.
     void addBetweenBands(std::span<float> ln, const std::vector<float> &levels)
     {
-        constexpr float abyss = 4.6f; // 20 dB
         const double perCell = double(levels.size()) / double(ln.size());
         const auto middleOf = [&](std::size_t band) { return (double(band) + 0.5) / perCell - 0.5; };
         const auto place = [&](double cell) {
@@ -57,7 +55,7 @@ namespace {
                 continue;
             const float start = ln[from];
             const float fall = ln[to - 1] - start;
-            if (std::abs(fall) > abyss) {
+            if (std::abs(fall) > abruptLevelLn) {
                 const auto half = std::find_if(ln.begin() + std::ptrdiff_t(from), ln.begin() + std::ptrdiff_t(to),
                                                [&](float value) { return (value - start) / fall > 0.5f; });
                 const auto edge = std::size_t(half - ln.begin());

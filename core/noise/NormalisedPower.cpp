@@ -4,6 +4,7 @@
 #include "base/memoryShares.h"
 #include "noise/averageWhileSteady.h"
 #include "noise/blockBackground.h"
+#include "noise/constants.h"
 #include "noise/dither.h"
 #include "noise/levels.h"
 
@@ -22,7 +23,6 @@ namespace {
     constexpr Index powersPerBlock = Index(1) << 20;
     constexpr Index fewestRowsPerBlock = 16;
     constexpr Index mostCells = Index(1) << 20;
-    constexpr Index levelCells = 500; ///< cells from which a frame's level is estimated
 
     float quantile(std::vector<float> &values, double p)
     {
@@ -103,10 +103,8 @@ NormalisedPower::NormalisedPower(std::shared_ptr<const PowerFrames> power, const
     m_background = estimate(time(), frequency, settings, context, [this](Index frame) { return readPower(frame, 1); });
 
     // The spread of the normalised values gives the number of averaged looks.
-    constexpr Index framesLookedAt = 64;
-    constexpr Index valuesOfFrame = 4096;
-    const Index step = std::max<Index>(1, time().count / framesLookedAt);
-    const Index cellStep = std::max<Index>(1, part.cells / valuesOfFrame);
+    const Index step = std::max<Index>(1, time().count / 64);
+    const Index cellStep = std::max<Index>(1, part.cells / 4096);
     std::vector<float> pooled;
     std::vector<float> scratch;
     for (Index frame = 0; frame < time().count; frame += step) {
@@ -159,7 +157,7 @@ void NormalisedPower::read(Index first, Index count, std::span<float> out) const
     const std::vector<float> power = readPower(first, count);
     std::copy(power.begin(), power.end(), out.begin());
     const auto cells = std::size_t(m_part.cells);
-    const std::size_t stride = (cells + levelCells - 1) / levelCells;
+    const std::size_t stride = (cells + powerLevelCells - 1) / powerLevelCells;
     const double chance = 4.5 * medianScatter(double((cells + stride - 1) / stride)) / std::sqrt(m_law.looks());
     std::vector<float> ln;
     std::vector<float> some;
@@ -171,7 +169,7 @@ void NormalisedPower::read(Index first, Index count, std::span<float> out) const
             if (std::isfinite(frame[cell]))
                 some.push_back(frame[cell] / m_law.median());
         const float level = some.empty() ? 1.0f : medianOf(some);
-        const bool isOff = level > 0.0f && cells >= levelCells / 10 && std::abs(std::log(double(level))) > chance;
+        const bool isOff = level > 0.0f && cells >= powerLevelCells / 10 && std::abs(std::log(double(level))) > chance;
         for (float &value : frame)
             value = value == value ? m_law(isOff ? value / level : value) : value;
     }

@@ -3,6 +3,7 @@
 #include "noise/bandLevels.h"
 #include "noise/between.h"
 #include "noise/blockBackground.h"
+#include "noise/constants.h"
 #include "noise/unevenness.h"
 
 #include <algorithm>
@@ -56,7 +57,6 @@ namespace {
         /// Returns false if there are none.
         bool findSources()
         {
-            constexpr Index threeSourcesFromCells = 144;
             m_stretch.sources = fitSources(m_frames, m_cells, m_cells < threeSourcesFromCells ? 2 : 3, m_half);
             const Index sources = m_stretch.sources.count();
             m_stretch.sourceLevels.assign(std::size_t(m_stretchFrames.count * m_stretchFrames.steps * sources), 0.0f);
@@ -66,8 +66,6 @@ namespace {
         /// Whether sources explain more than the background, leaving only chance.
         bool isBetter(double likeness)
         {
-            constexpr double improvedVarianceRatio = 1.1;
-            constexpr double remainingVarianceRatio = 1.4;
             divideByNoise(0);
             m_rest = blockBackground(m_frames, m_cells, m_half);
             for (Index frame = 0; frame < m_stretchFrames.count; ++frame)

@@ -3,6 +3,7 @@
 #include "base/fastmath.h"
 #include "base/multiversion.h"
 #include "noise/blockBackground.h"
+#include "noise/constants.h"
 #include "noise/levels.h"
 #include "noise/medians.h"
 
@@ -13,8 +14,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr double leastNoiseRatio = 1.3; // deviation of the noise's own shape from its running median
 
     /// Median difference of two rows of ln powers, from at most 500 cells; 0 if it may be due to chance.
     float levelBetween(const float *upper, const float *lower, Index cells, double framesUsed)
@@ -44,8 +43,6 @@ namespace {
             to.count[cell] += counts[cell];
         }
     }
-
-    constexpr Index steadyReachBlocks = 6; ///< blocks on either side
 
     /// Shared by all blocks' averages.
     class SteadyAverage
@@ -80,7 +77,7 @@ namespace {
             double blocksAveraged = 1.0;
             for (Index direction : {-1, 1}) {
                 std::fill(m_goesOn.begin(), m_goesOn.end(), 1);
-                for (Index i = 1; i <= steadyReachBlocks; ++i) {
+                for (Index i = 1; i <= steadyBlocks; ++i) {
                     const Index other = block + direction * i;
                     if (other < 0 || other >= m_blocks)
                         break;
@@ -141,9 +138,9 @@ void averageWhileSteady(std::vector<float> &columns, const std::vector<float> &r
     std::deque<std::vector<float>> finished; // the last blocks, whose own medians are still needed
     for (Index block = 0; block < average.blocks(); ++block) {
         finished.push_back(average.backgroundOf(block));
-        if (std::ssize(finished) > steadyReachBlocks) {
+        if (std::ssize(finished) > steadyBlocks) {
             std::copy(finished.front().begin(), finished.front().end(),
-                      columns.begin() + (block - steadyReachBlocks) * cells);
+                      columns.begin() + (block - steadyBlocks) * cells);
             finished.pop_front();
         }
     }

@@ -1,6 +1,7 @@
 #include "noise/bandLevels.h"
 
 #include "noise/between.h"
+#include "noise/constants.h"
 #include "noise/levels.h"
 
 #include <algorithm>
@@ -88,14 +89,13 @@ namespace {
         /// Levels of the sub-bands, the known ones, and those that represent the whole band.
         void levelsOfBands(std::span<const float> frame, std::span<float> levels)
         {
-            constexpr std::ptrdiff_t fewestCells = 24;
             m_telling.clear();
             m_known.clear();
             for (Index band = 0; band < m_bands; ++band) {
                 m_sample.clear();
                 collect(frame, m_noise[std::size_t(band)]);
                 const std::ptrdiff_t count = std::ssize(m_sample);
-                if (count < fewestCells)
+                if (count < fewestBandCells)
                     continue;
                 const float median = medianNear(m_medians[std::size_t(band)]);
                 if (!(median > 0.0f))
@@ -191,8 +191,6 @@ std::vector<float> mediansOf(const std::vector<float> &levels, Index columns)
 
 float shareOfLines(float median)
 {
-    constexpr float medianChanceLn = 0.02f;
-    constexpr float lineShareLimitLn = 0.15f;
     return std::clamp(median - medianChanceLn, 0.0f, lineShareLimitLn);
 }
 
@@ -211,7 +209,6 @@ LevelOffsets::LevelOffsets(const std::vector<float> &levels, Index columns)
 void removeOffsets(std::vector<float> &levels, const std::vector<LevelOffsets> &offsets,
                    const std::vector<Index> &blockOfLevel)
 {
-    constexpr Index offsetReachBlocks = 6;
     if (offsets.empty())
         return;
     const std::size_t columns = offsets.front().medians.size();
@@ -228,8 +225,8 @@ void removeOffsets(std::vector<float> &levels, const std::vector<LevelOffsets> &
             if (column + 1 == columns)
                 continue;
             few.clear();
-            for (Index other = std::max<Index>(0, block - offsetReachBlocks);
-                 other <= std::min(std::ssize(offsets) - 1, block + offsetReachBlocks); ++other)
+            for (Index other = std::max<Index>(0, block - steadyBlocks);
+                 other <= std::min(std::ssize(offsets) - 1, block + steadyBlocks); ++other)
                 if (const LevelOffsets &each = offsets[std::size_t(other)]; !each.isSure[column])
                     few.push_back(each.medians[column]);
             taken.back()[column] = shareOfLines(medianOf(few));

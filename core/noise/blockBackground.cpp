@@ -1,6 +1,7 @@
 #include "noise/blockBackground.h"
 
 #include "noise/NoiseBackground.h"
+#include "noise/constants.h"
 #include "noise/levels.h"
 #include "noise/medians.h"
 
@@ -11,10 +12,6 @@ namespace faintline {
 
 namespace {
 
-    // Height of a background above the rounding floor, in ln power, above which it is used
-    constexpr double roundingMarginLn = 4.0;   ///< for the level of the whole band
-    constexpr double roundingNearnessLn = 0.1; ///< at all
-
 } // namespace
 
 double mostNoiseRatio(double frames)
@@ -24,7 +21,6 @@ double mostNoiseRatio(double frames)
 
 std::vector<bool> refine(const std::vector<float> &values, std::vector<float> &medians, Index half, double mostRatio)
 {
-    constexpr double fewestCells = 3.0;
     std::vector<double> ratios(values.size());
     std::vector<double> weights(values.size());
     std::vector<bool> isNoise(values.size());
@@ -35,7 +31,7 @@ std::vector<bool> refine(const std::vector<float> &values, std::vector<float> &m
         weights[k] = isNoise[k] ? 1.0 : 0.0;
     }
     std::vector<double> mean(values.size());
-    runningMean(ratios, weights, half, mean, fewestCells);
+    runningMean(ratios, weights, half, mean, fewestRatioCells);
     for (std::size_t k = 0; k < values.size(); ++k)
         medians[k] += float(std::log(mean[k]));
     return isNoise;

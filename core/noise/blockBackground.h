@@ -8,10 +8,6 @@ namespace faintline {
 
 // Noise estimate from one block of frames.
 
-/// Rounding error of the single-precision transform, relative to the frame's strongest bin; values below it are not
-/// noise.
-inline constexpr double roundingFloor = 1e-13;
-
 /// Upper bound on the ratio of noise cells (medians of `frames` frames) to their neighbours: five standard errors.
 double mostNoiseRatio(double frames);
 

@@ -2,6 +2,7 @@
 
 #include "frames/observed.h"
 #include "noise/FrameNormaliser.h"
+#include "noise/constants.h"
 #include "noise/levels.h"
 #include "noise/medians.h"
 
@@ -14,20 +15,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index fewestWindows = 1024;
-    constexpr Index edgeFrames = 8192;
-    constexpr Index edgeValues = Index(1) << 26;  ///< frames × bins that are read
-    constexpr float steepLnPerCell = 1.2f;        ///< change of ln B between cells
-    constexpr Index edgeReachCells = 6;           ///< cells on either side of a steep place
-    constexpr Index smoothHalfWidthCells = 5;     ///< cells; half the window of the smooth correction
-    constexpr float correctionLimitLn = 0.5f;     ///< ln; of a correction
-    constexpr double significantDeviations = 4.0; ///< standard errors of a smooth correction
-    constexpr double alarmsPerErrorLn = 30.0;     ///< d ln(rate of false alarms)/dε for an excess ε of y
-    constexpr double alarmEvidenceNats = 12.0;    ///< nat of a false alarm, at usual rates …
-    constexpr double alarmsPerExcessLn = 50.0;    ///< … and d ln rate/dε of those
-    constexpr float lineLimitPower = 5.0f;        ///< y of a line, at most
-    constexpr Index windowsTogether = 8;          ///< of a run of frames
-    constexpr Index windowsApart = 2;             ///< frames that may still be correlated
+    constexpr Index edgeValues = Index(1) << 26; ///< frames × bins that are read
 
     /// Counts how often each cell's background changes steeply to the next cell.
     void countSteep(std::span<const float> ln, std::vector<Index> &counts)
@@ -51,7 +39,7 @@ namespace {
     /// ln; compensates for the error of a bin's level, and for frames of which only one in `alike` is independent.
     double marginOf(double alike, double error)
     {
-        return 0.5 * alarmsPerErrorLn * error * error + alarmEvidenceNats / alarmsPerExcessLn * (1.0 - 1.0 / alike);
+        return 0.5 * alarmsPerExcess * error * error + alarmEvidenceNats / alarmsPerRareExcess * (1.0 - 1.0 / alike);
     }
 
     /// Sums over frames of a recording over its background, bin by bin.
@@ -60,7 +48,7 @@ namespace {
     public:
         BinRatios(const Spectrogram &spectrogram, const NoiseBackground &background)
             : m_spectrogram(spectrogram), m_background(background), m_normaliser(spectrogram, false),
-              m_lags(std::size_t(windowsApart * spectrogram.settings().stepsPerWindow)),
+              m_lags(std::size_t(edgeWindowsApart * spectrogram.settings().stepsPerWindow)),
               m_below(std::size_t(spectrogram.frequency().count), 0), m_sum(m_below.size(), 0.0),
               m_squares(m_below.size(), 0.0), m_products(m_below.size(), 0.0),
               m_steep(std::size_t(background.frequency.count), 0), m_ln(m_steep.size())
@@ -122,7 +110,7 @@ namespace {
             m_normaliser.normalise(y, m_background, seconds);
             for (std::size_t bin = 0; bin < y.size(); ++bin) {
                 m_below[bin] += y[bin] < std::numbers::ln2_v<float> ? 1 : 0;
-                y[bin] = std::min(y[bin], lineLimitPower);
+                y[bin] = std::min(y[bin], lineLimit);
                 m_sum[bin] += double(y[bin]);
                 m_squares[bin] += double(y[bin] * y[bin]);
             }
@@ -177,11 +165,11 @@ std::vector<float> edgeCorrection(const Spectrogram &spectrogram, const NoiseBac
     const Index frameCount = spectrogram.time().count;
     const Index steps = spectrogram.settings().stepsPerWindow;
     const Index wanted = std::min(edgeFrames, edgeValues / std::max<Index>(1, bins));
-    if (frameCount < fewestWindows * steps || wanted < fewestWindows)
+    if (frameCount < fewestEdgeWindows * steps || wanted < fewestEdgeWindows)
         return {};
     BinRatios ratios(spectrogram, background);
-    addRuns(ratios, frameCount, wanted, windowsTogether * steps);
-    if (ratios.frames() < fewestWindows / 2)
+    addRuns(ratios, frameCount, wanted, edgeWindowsTogether * steps);
+    if (ratios.frames() < fewestEdgeWindows / 2)
         return {};
 
     const std::vector<float> lnMeans = ratios.lnMeans();
@@ -192,7 +180,6 @@ std::vector<float> edgeCorrection(const Spectrogram &spectrogram, const NoiseBac
     const std::vector<double> alike = ratios.framesAlike();
     const double independent = double(ratios.frames()) * std::min(1.0, 2.0 / double(steps));
     const double error = inverseLn2 / std::sqrt(independent);
-    constexpr double medianErrorRatio = 1.25; // its error over that of a mean
     const double smoothError =
         medianErrorRatio * error * medianScatter(2.0 * double(smoothHalfWidthCells) + 1.0) / inverseLn2;
     std::vector<float> correction(std::size_t(bins), 0.0f);

@@ -6,6 +6,7 @@
 #include "noise/bandLevels.h"
 #include "noise/blockBackground.h"
 #include "noise/coarseFrames.h"
+#include "noise/constants.h"
 #include "noise/edgeCorrection.h"
 #include "noise/stopBands.h"
 #include "noise/unevenness.h"
@@ -29,7 +30,6 @@ namespace {
     /// The detector's frames between two windows, up to three: spectra of windows that each begin a hop later.
     std::vector<Spectrogram> betweenWindows(const Spectrogram &detector, const Spectrogram &windows)
     {
-        constexpr Index levelFramesPerWindow = 4;
         std::vector<Spectrogram> result;
         const Index steps = std::min<Index>(detector.settings().stepsPerWindow, levelFramesPerWindow);
         const double rate = detector.recording().info().sampleRateHz;
@@ -60,12 +60,10 @@ namespace {
     void addStretches(NoiseBackground &background, const BlockedFrames &blocked, const std::vector<Unevenness> &changes,
                       Index half, double likeness, std::vector<float> &levels)
     {
-        constexpr Index stretchBlocks = 13;
-        constexpr double noticeableVarianceRatio = 1.5;
         const Index blockCount = std::ssize(changes);
         const double expected = Unevenness::ofNoise(likeness);
         const Index together = std::clamp<Index>(
-            Index(double(valuesPerBlock / background.frequency.count) / blocked.blockFrames), 1, stretchBlocks);
+            Index(double(valuesPerBlock / background.frequency.count) / blocked.blockFrames), 1, 2 * steadyBlocks + 1);
         for (Index block = 0; block < blockCount; block += together) {
             const Index next = std::min(blockCount, block + together);
             Unevenness change;

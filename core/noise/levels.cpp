@@ -1,5 +1,7 @@
 #include "noise/levels.h"
 
+#include "noise/constants.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,8 +9,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr double likeness = 1.5; // neighbouring cells that count as one
 
     constexpr int scales = 7;
 
@@ -82,7 +82,7 @@ double medianMean(int n)
 
 double medianScatter(double cells)
 {
-    return inverseLn2 * std::sqrt(likeness / cells);
+    return inverseLn2 * std::sqrt(cellsAlike / cells);
 }
 
 double meanScatter(double cells, double likeness)
@@ -92,14 +92,13 @@ double meanScatter(double cells, double likeness)
 
 float truncatedMean(std::span<const float> cells, float guess)
 {
-    constexpr float truncatedAtMeans = 5.0f;
-    const float kept = (1.0f - (1.0f + truncatedAtMeans) * std::exp(-truncatedAtMeans))
-                       / (1.0f - std::exp(-truncatedAtMeans)); // E[y | y < cut]
+    const float kept =
+        (1.0f - (1.0f + lineLimit) * std::exp(-lineLimit)) / (1.0f - std::exp(-lineLimit)); // E[y | y < cut]
     for (int pass = 0; pass < 2; ++pass) {
         double sum = 0.0;
         double count = 0.0;
         for (float value : cells)
-            if (value < truncatedAtMeans * guess) {
+            if (value < lineLimit * guess) {
                 sum += double(value);
                 count += 1.0;
             }

@@ -9,9 +9,6 @@ namespace faintline {
 // Estimators of the level of noise from exponential cells that may contain lines, and of changes in a series of levels.
 // Neighbouring cells are assumed to be correlated by the window's main lobe: 1.5 cells count as one.
 
-/// √n times the standard deviation of the logarithm of the median of n exponential cells: 1/ln 2, rounded.
-inline constexpr double inverseLn2 = 1.44;
-
 /// The lower median; reorders the values. Precondition: not empty.
 float medianOf(std::vector<float> &values);
 

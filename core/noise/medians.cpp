@@ -1,6 +1,7 @@
 #include "noise/medians.h"
 
 #include "base/multiversion.h"
+#include "noise/constants.h"
 #include "noise/levels.h"
 
 #include <algorithm>

@@ -9,8 +9,6 @@ namespace faintline {
 
 // Medians and means of many cells at once, for noise backgrounds.
 
-constexpr Index pivotCells = 5; ///< cells at the ends of a sequence that define the point of reflection
-
 /// out[c] = the lower median of frames[r·cells + c] over all rows r, cells = out.size(). Precondition: no value is
 /// negative or NaN. Works bit by bit in many columns at once, 31 comparisons per value. Oracle: std::nth_element.
 void columnMedians(std::span<const float> frames, std::span<float> out);

@@ -11,13 +11,13 @@ namespace faintline {
 
 double noiseMeanOf(const NormalisedFrames &frames)
 {
-    constexpr Index meanLimitFrames = 64;
     const Index count = frames.time().count;
+    const Index some = std::min<Index>(count, 64);
     const auto cells = std::size_t(frames.grid().size());
     std::vector<float> frame(cells);
     std::vector<float> all;
-    for (Index i = 0; i < std::min(count, meanLimitFrames); ++i) {
-        frames.read(i * count / std::min(count, meanLimitFrames), 1, frame);
+    for (Index i = 0; i < some; ++i) {
+        frames.read(i * count / some, 1, frame);
         std::copy_if(frame.begin(), frame.end(), std::back_inserter(all), [](float y) { return !std::isnan(y); });
     }
     if (all.empty())

@@ -1,6 +1,7 @@
 #include "noise/noiseSources.h"
 
 #include "base/multiversion.h"
+#include "noise/constants.h"
 #include "noise/medians.h"
 
 #include <algorithm>
@@ -12,12 +13,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::size_t sumLanes = 16;       // number of partial sums, in the same order on each processor
-    constexpr float lowestNoisePower = 1e-12f; // lower limit of B, relative to frames near 1
-    constexpr float lineLimitRatio = 6.0f;     // limits a line to six times its noise
-    constexpr int sweeps = 16;
-    constexpr int levelUpdates = 12;
-    constexpr Index profileCells = 24;
+    constexpr std::size_t sumLanes = 16; // number of partial sums, in the same order on each processor
 
     using Lanes = std::array<float, sumLanes>;
 
@@ -33,9 +29,9 @@ namespace {
     void weigh(const float *frame, const float *sum, std::size_t cells, float *pull, float *inverse)
     {
         for (std::size_t cell = 0; cell < cells; ++cell) {
-            const float b = sum[cell] > lowestNoisePower ? sum[cell] : lowestNoisePower;
+            const float b = sum[cell] > lowestSourcePower ? sum[cell] : lowestSourcePower;
             const float over = 1.0f / b;
-            const float y = frame[cell] < lineLimitRatio * b ? frame[cell] : lineLimitRatio * b;
+            const float y = frame[cell] < sourceLineLimit * b ? frame[cell] : sourceLineLimit * b;
             inverse[cell] = over;
             pull[cell] = y * over * over;
         }
@@ -93,7 +89,7 @@ namespace {
         for (std::size_t k = 0; k < count; ++k) {
             std::vector<float> ratios(frame.size());
             for (std::size_t cell = 0; cell < frame.size(); ++cell)
-                ratios[cell] = frame[cell] / std::max(sources.colours[k * frame.size() + cell], lowestNoisePower);
+                ratios[cell] = frame[cell] / std::max(sources.colours[k * frame.size() + cell], lowestSourcePower);
             const auto middle = ratios.begin() + std::ssize(ratios) / 2;
             std::nth_element(ratios.begin(), middle, ratios.end());
             levels[k] = *middle / float(count);
@@ -105,13 +101,13 @@ namespace {
     std::vector<float> profileOf(std::span<const float> frame)
     {
         const Index cells = std::ssize(frame);
-        const Index parts = std::max<Index>(1, cells / profileCells);
+        const Index parts = std::max<Index>(1, cells / sourceProfileCells);
         std::vector<float> profile;
         for (Index part = 0; part < parts; ++part) {
             std::vector<float> values(frame.begin() + part * cells / parts, frame.begin() + (part + 1) * cells / parts);
             const auto middle = values.begin() + std::ssize(values) / 2;
             std::nth_element(values.begin(), middle, values.end());
-            profile.push_back(std::log(std::max(*middle, lowestNoisePower)));
+            profile.push_back(std::log(std::max(*middle, lowestSourcePower)));
         }
         std::vector<float> sorted = profile;
         std::nth_element(sorted.begin(), sorted.begin() + parts / 2, sorted.end());
@@ -132,8 +128,6 @@ namespace {
     /// averaged with its nearest frames.
     NoiseSources firstSources(std::span<const float> frames, Index cells, Index count)
     {
-        constexpr double oddestFrameShare = 0.03;
-        constexpr std::size_t likeFramesLimit = 5;
         std::vector<std::vector<float>> profiles;
         for (Index first = 0; first < std::ssize(frames); first += cells)
             profiles.push_back(profileOf(frames.subspan(std::size_t(first), std::size_t(cells))));
@@ -178,13 +172,11 @@ namespace {
     /// Cells near steep changes of a colour, where smoothing would move the edge and flatten the leakage.
     void markEdges(const std::vector<float> &ln, std::vector<char> &isEdge)
     {
-        constexpr float steepLnPerTwoCells = 1.4f; // 6 dB between neighbours
-        constexpr Index edgeReachInCells = 6;
         const Index cells = std::ssize(ln);
         for (Index cell = 1; cell + 1 < cells; ++cell)
             if (std::abs(ln[std::size_t(cell + 1)] - ln[std::size_t(cell - 1)]) > steepLnPerTwoCells)
-                std::fill(isEdge.begin() + std::max<Index>(0, cell - edgeReachInCells),
-                          isEdge.begin() + std::min(cells, cell + edgeReachInCells + 1), 1);
+                std::fill(isEdge.begin() + std::max<Index>(0, cell - edgeReachCells),
+                          isEdge.begin() + std::min(cells, cell + edgeReachCells + 1), 1);
     }
 
     void smoothColours(NoiseSources &sources, Index half)
@@ -196,7 +188,7 @@ namespace {
             const float *colour = sources.colours.data() + k * sources.cells;
             std::vector<float> ln(cells);
             for (std::size_t cell = 0; cell < cells; ++cell)
-                ln[cell] = std::log(std::max(colour[cell], lowestNoisePower));
+                ln[cell] = std::log(std::max(colour[cell], lowestSourcePower));
             smooth.push_back(runningMedian(ln, half));
             markEdges(smooth.back(), isEdge);
         }
@@ -224,7 +216,7 @@ std::vector<float> NoiseSources::levelsIn(std::span<const float> frame) const
         return levels;
     levels = firstLevels(*this, frame);
     UpdateScratch scratch(frame.size());
-    for (int i = 0; i < levelUpdates; ++i)
+    for (int i = 0; i < sourceLevelUpdates; ++i)
         updateLevels(*this, frame, levels, scratch);
     return levels;
 }
@@ -247,12 +239,12 @@ NoiseSources fitSources(std::span<const float> frames, Index cells, Index count,
     UpdateScratch scratch(size);
     std::vector<float> pull(sources.colours.size());
     std::vector<float> inverse(sources.colours.size());
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for (int sweep = 0; sweep < sourceSweeps; ++sweep) {
         std::fill(pull.begin(), pull.end(), 0.0f);
         std::fill(inverse.begin(), inverse.end(), 0.0f);
         for (std::size_t frame = 0; frame < frameCount; ++frame) {
             const auto row = std::span<const float>(loud).subspan(frame * size, size);
-            for (int i = 0; i < (sweep == 0 ? levelUpdates : 2); ++i)
+            for (int i = 0; i < (sweep == 0 ? sourceLevelUpdates : 2); ++i)
                 updateLevels(sources, row, levels[frame], scratch);
             weigh(sources, row, levels[frame], scratch);
             for (std::size_t k = 0; k < levels[frame].size(); ++k) {

@@ -1,5 +1,6 @@
 #include "noise/stopBands.h"
 
+#include "noise/constants.h"
 #include "noise/medians.h"
 
 #include <algorithm>
@@ -12,15 +13,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr Index spectrumSamples = 1024;
-    constexpr Index spectraPerTime = 8;
-    constexpr Index timesNeeded = 16;
-    constexpr Index timesLimit = 64;
-    constexpr double fallNats = 2.0 * std::numbers::ln10; ///< 20 dB
-    constexpr double changeNats = 0.1; ///< standard deviation below which a level is steady: nothing can follow it
-    constexpr double correlationMinimum = 0.75;
-    constexpr double slopeMinimum = 0.4;
 
     using Rows = std::vector<std::vector<double>>; ///< ln power, times × cells
 
@@ -45,8 +37,9 @@ namespace {
             squaresHigh += (high[i] - meanHigh) * (high[i] - meanHigh);
             products += (low[i] - meanLow) * (high[i] - meanHigh);
         }
-        return squaresHigh >= changeNats * changeNats * double(low.size()) && products >= slopeMinimum * squaresHigh
-               && products >= correlationMinimum * std::sqrt(squaresLow * squaresHigh);
+        return squaresHigh >= steadyLevelNats * steadyLevelNats * double(low.size())
+               && products >= followingSlope * squaresHigh
+               && products >= followingCorrelation * std::sqrt(squaresLow * squaresHigh);
     }
 
     struct UpperEnd {
@@ -65,7 +58,7 @@ namespace {
         const auto quartile = sorted.begin() + std::ptrdiff_t(3 * sorted.size() / 4);
         std::ranges::nth_element(sorted, quartile);
         Index begin = cells;
-        while (begin > 0 && mean[std::size_t(begin - 1)] <= *quartile - fallNats)
+        while (begin > 0 && mean[std::size_t(begin - 1)] <= *quartile - stopFallNats)
             --begin;
         const Index width = cells - begin;
         const Index edge = std::max<Index>(2, cells / 20); // where the filter falls
@@ -75,7 +68,7 @@ namespace {
             return {};
         const double inside = *std::max_element(mean.begin() + begin - edge, mean.begin() + pass);
         const double depth = inside - meanOf(std::span(mean).subspan(std::size_t(begin)));
-        if (depth < fallNats || !follows(rows, begin, pass - beside, beside))
+        if (depth < stopFallNats || !follows(rows, begin, pass - beside, beside))
             return {};
         return UpperEnd{width, depth};
     }
@@ -84,7 +77,7 @@ namespace {
 
 std::vector<StopBand> stopBands(const Axis &frequency, std::vector<std::vector<double>> lnPower, bool isComplex)
 {
-    if (std::ssize(lnPower) < timesNeeded)
+    if (std::ssize(lnPower) < fewestStopTimes)
         return {};
     const double first = frequency.value(-0.5);
     const double end = frequency.value(double(frequency.count) - 0.5);
@@ -104,20 +97,20 @@ std::vector<StopBand> stopBands(const Spectrogram &spectrogram)
 {
     const RecordingInfo &info = spectrogram.recording().info();
     const Index samples = (spectrogram.time().count - 1) * spectrogram.hopSamples() + spectrogram.windowSamples();
-    if (!isWholeBand(spectrogram.selection()) || samples < spectrumSamples * timesNeeded * spectraPerTime)
+    if (!isWholeBand(spectrogram.selection()) || samples < stopSpectrumSamples * fewestStopTimes * stopSpectraPerTime)
         return {};
-    const SpectrogramSettings settings{double(spectrumSamples) / info.sampleRateHz, 1, 1,
+    const SpectrogramSettings settings{double(stopSpectrumSamples) / info.sampleRateHz, 1, 1,
                                        spectrogram.settings().window};
     const Spectrogram spectra(spectrogram.recordingPointer(), settings, spectrogram.selection());
     const Index count = spectra.time().count;
-    const Index times = std::min(timesLimit, count / spectraPerTime);
+    const Index times = std::min(mostStopTimes, count / stopSpectraPerTime);
     const auto cells = std::size_t(spectra.frequency().count);
     Rows rows;
-    std::vector<float> y(cells * std::size_t(spectraPerTime));
+    std::vector<float> y(cells * std::size_t(stopSpectraPerTime));
     std::vector<float> medians(cells);
     for (Index time = 0; time < times; ++time) {
-        for (Index i = 0; i < spectraPerTime; ++i)
-            spectra.read((time * spectraPerTime + i) * count / (times * spectraPerTime), 1,
+        for (Index i = 0; i < stopSpectraPerTime; ++i)
+            spectra.read((time * stopSpectraPerTime + i) * count / (times * stopSpectraPerTime), 1,
                          std::span(y).subspan(std::size_t(i) * cells, cells));
         columnMedians(y, medians);
         if (*std::ranges::min_element(medians) <= 0.0f) // silence, or a gap

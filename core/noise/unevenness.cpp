@@ -2,6 +2,7 @@
 
 #include "noise/NoiseBackground.h"
 #include "noise/bandLevels.h"
+#include "noise/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,14 +11,11 @@ namespace faintline {
 
 namespace {
 
-    constexpr float lnSilence = NoiseBackground::silence;
-
 } // namespace
 
 Unevenness unevenness(std::span<const float> frames, const std::vector<float> &ofCell,
                       const std::vector<float> &ofFrame)
 {
-    constexpr float tileLimitPower = 5.0f;
     const Index cells = std::ssize(ofCell);
     Unevenness result;
     for (Index cell = 0; cell + Unevenness::tileCells <= cells; cell += Unevenness::tileCells) {
@@ -32,7 +30,7 @@ Unevenness unevenness(std::span<const float> frames, const std::vector<float> &o
                 const float *row = frames.data() + frame * cells;
                 const float factor = ofFrame[std::size_t(frame)];
                 for (Index i = cell; i < cell + Unevenness::tileCells; ++i)
-                    mean += double(std::min(row[i] * factor * ofCell[std::size_t(i)], tileLimitPower));
+                    mean += double(std::min(row[i] * factor * ofCell[std::size_t(i)], lineLimit));
             }
             if (mean <= 0.0)
                 continue;
@@ -58,7 +56,7 @@ Unevenness changesOf(const std::vector<float> &frames, const BlockBackground &bl
 {
     std::vector<float> ofCell;
     for (const float ln : block.lnPower)
-        ofCell.push_back(ln > lnSilence ? std::exp(-ln) : 0.0f);
+        ofCell.push_back(ln > NoiseBackground::silence ? std::exp(-ln) : 0.0f);
     std::vector<float> ofFrame;
     for (std::size_t i = std::size_t(bands); i < levels.size(); i += std::size_t(bands + 1))
         ofFrame.push_back(levels[i] < levelNotKnown ? std::exp(-levels[i]) : 0.0f);

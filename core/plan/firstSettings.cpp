@@ -16,11 +16,10 @@ AnalysisSettings firstSettings(const RecordingInfo &recording)
 
 AnalysisSettings withFittedOrder(AnalysisSettings settings, const RecordingInfo &recording)
 {
-    constexpr double slowHz = 1.0;
     const DecideSettings usual;
     DecideSettings &decide = settings.decide;
     const double hours = recording.durationSeconds() / 3600.0;
-    if (recording.sampleRateHz < slowHz && hours * usual.falseAlarmsPerHour > 1.0
+    if (recording.sampleRateHz < 1.0 && hours * usual.falseAlarmsPerHour > 1.0
         && decide.by == DecideSettings::By::FalseAlarmsPerHour && decide.falseAlarmsPerHour == usual.falseAlarmsPerHour)
         decide.falseAlarmsPerHour = 1.0 / hours;
     return settings;

@@ -1,12 +1,12 @@
 #include "track/Area.h"
 
+#include "track/constants.h"
+
 #include <algorithm>
 
 namespace faintline {
 
 namespace {
-
-    constexpr double joinedAreaRatio = 1.2;
 
     double sizeOf(const Area &area)
     {

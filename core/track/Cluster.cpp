@@ -2,6 +2,7 @@
 
 #include "base/multiversion.h"
 #include "detect/Detector.h"
+#include "track/constants.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -73,13 +74,6 @@ std::vector<Cluster> findClusters(const Grid &grid, std::span<const float> stati
               [](const Cluster &a, const Cluster &b) { return a.peakCell < b.peakCell; });
     return clusters;
 }
-
-namespace {
-
-    constexpr double skirtPower = 8.0; ///< y that noise rarely exceeds
-    constexpr Index skirtLimitSteps = 16;
-
-} // namespace
 
 CellBox overSkirts(CellBox box, const Grid &grid, std::span<const float> y, Index step)
 {

@@ -3,6 +3,7 @@
 #include "base/memoryShares.h"
 #include "track/Cluster.h"
 #include "track/closeTrackers.h"
+#include "track/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +13,6 @@ namespace faintline {
 namespace {
 
     constexpr Index checkpointFrames = 32; ///< frames between checkpoints
-    /// Factor by which a constant leaks more than a line: where noise falls steeply from 0 Hz on, its side lobes lie on
-    /// less noise.
-    constexpr double constantLeakageFactor = 10.0;
 
     /// Number of frames to record: only the newest one without traceback.
     std::size_t framesOf(const Grid &grid, const ChainSettings &settings)

@@ -1,14 +1,13 @@
 #include "track/RivalModels.h"
 
+#include "track/constants.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace faintline {
 
 namespace {
-
-    const double lnChange = std::log(0.05); ///< ln p
-    constexpr Index rivalFrames = 16;       ///< frames from a change to the frame in which it is the better explanation
 
     std::map<int, std::vector<HmmTracker>> copyOf(const std::map<int, std::vector<HmmTracker>> &rivals,
                                                   std::span<const std::unique_ptr<TrackerModel>> models)
@@ -44,7 +43,7 @@ bool RivalModels::update(HmmTracker &tracker, bool goesOn, Index frame, std::spa
     });
     for (std::size_t model = 0; model < m_models.size(); ++model)
         if (model != tracker.model())
-            rivals.push_back(tracker.changedTo(*m_models[model], model, lnChange));
+            rivals.push_back(tracker.changedTo(*m_models[model], model, std::log(changeProbability)));
     return true;
 }
 

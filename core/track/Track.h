@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/Grid.h"
+#include "track/constants.h"
 
 #include <algorithm>
 #include <vector>
@@ -17,13 +18,12 @@ struct TrackPoint {
 };
 
 /// Sets the offsets of the first `count` points of a path of a line from the evidence beside it in the frames around:
-/// the vertex of the parabola through Σ λ in the cells below, on and above the path, over ±8 frames. `lambda(i, cell)`:
+/// the vertex of the parabola through Σ λ in the cells below, on and above the path, over ±fittedPoints frames. `lambda(i, cell)`:
 /// log-likelihood ratio in the frame of point i. λ is close to an amplitude, whose main lobe such a parabola fits to
 /// 0.03 bin (Hann, two bins a cell).
 template <class Lambda>
 void measureOffsets(std::vector<TrackPoint> &path, std::size_t count, Lambda lambda)
 {
-    constexpr std::size_t fittedPoints = 8;
     for (std::size_t i = 0; i < count; ++i) {
         double sums[3] = {};
         for (std::size_t j = i - std::min(i, fittedPoints); j < std::min(path.size(), i + fittedPoints + 1); ++j)

@@ -1,16 +1,12 @@
 #include "track/closeTrackers.h"
 
+#include "track/constants.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <utility>
 
 namespace faintline {
-
-namespace {
-
-    constexpr int duplicateAfterFrames = 3;
-
-} // namespace
 
 std::vector<Index> cellsOfNeighbours(const Grid &grid, const PlaceIndex &places, std::size_t own, Index farthest,
                                      const std::vector<Index> &halfWidth)

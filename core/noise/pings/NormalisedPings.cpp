@@ -129,10 +129,8 @@ void PingBackground::readLn(Index ping, std::span<float> ln) const
 PingPower::PingPower(std::shared_ptr<const RawPings> pings, PingValues values)
     : m_pings(std::move(pings)), m_values(values)
 {
-    constexpr Index mostPings = 8;
-    const Index count = m_pings->info().time.count;
     std::vector<double> some;
-    for (Index i = 0; i < std::min(count, mostPings); ++i)
+    for (Index i = 0; i < std::min<Index>(m_pings->info().time.count, 8); ++i)
         for (const double power : powers(i, 1))
             if (power > 0.0)
                 some.push_back(power);

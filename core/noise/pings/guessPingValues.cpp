@@ -1,5 +1,6 @@
 #include "noise/pings/guessPingValues.h"
 
+#include "noise/constants.h"
 #include "noise/levels.h"
 #include "noise/pings/pingBlock.h"
 
@@ -39,8 +40,7 @@ namespace {
     /// Medians of the values of up to eight stretches of range, each in all beams, and of each beam.
     std::vector<double> partMedians(const std::vector<std::vector<double>> &pings, const BeamLayout &layout)
     {
-        constexpr Index stretches = 8;
-        const Index count = std::min(stretches, layout.ranges());
+        const Index count = std::min<Index>(8, layout.ranges());
         std::vector<std::vector<float>> values(std::size_t(count + layout.beams()));
         for (const std::vector<double> &ping : pings)
             for (Index beam = 0; beam < layout.beams(); ++beam)
@@ -59,9 +59,8 @@ namespace {
     /// Whether the noise has the same level everywhere, as after a normalisation.
     bool isLevel(const std::vector<double> &medians)
     {
-        constexpr double mostRatio = 2.0;
         const auto [low, high] = std::minmax_element(medians.begin(), medians.end());
-        return !medians.empty() && *high <= mostRatio * *low && *low >= 0.1 * std::numbers::ln2
+        return !medians.empty() && *high <= levelMediansRatio * *low && *low >= 0.1 * std::numbers::ln2
                && *high <= 10.0 * std::numbers::ln2;
     }
 

@@ -1,5 +1,6 @@
 #include "noise/pings/pingBlock.h"
 
+#include "noise/constants.h"
 #include "noise/levels.h"
 #include "noise/medians.h"
 
@@ -10,10 +11,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr float truncatedRatio = 5.0f;  ///< largest value that counts, relative to the first estimate
-    constexpr double shapeValues = 4000.0;  ///< from which each cell of the shared shape is estimated
-    constexpr Index fewestLevelCells = 100; ///< from which the level of a ping is estimated
 
     bool isNoise(float ln)
     {
@@ -95,7 +92,7 @@ namespace {
         }
         if (!fillGaps(shape))
             return shape;
-        const double wanted = 0.5 * (shapeValues / (pings * double(layout.beams())) - 1.0);
+        const double wanted = 0.5 * (pingShapeValues / (pings * double(layout.beams())) - 1.0);
         const Index half = std::clamp(Index(std::ceil(wanted)), Index(1), std::max<Index>(1, most));
         return runningMedian(shape, half);
     }
@@ -138,11 +135,9 @@ namespace {
     /// Mean of an exponential whose values below the cut have this mean: m = μ - c/(e^(c/μ) - 1).
     double exponentialMean(double mean)
     {
-        constexpr int passes = 12;
         double whole = mean;
-        for (int pass = 0; pass < passes; ++pass)
-            whole = std::min(double(truncatedRatio),
-                             mean + double(truncatedRatio) / std::expm1(double(truncatedRatio) / whole));
+        for (int pass = 0; pass < 12; ++pass)
+            whole = std::min(double(lineLimit), mean + double(lineLimit) / std::expm1(double(lineLimit) / whole));
         return whole;
     }
 
@@ -150,7 +145,6 @@ namespace {
     void refineBeam(std::span<float> estimate, const BeamLayout &layout, Index beam, const std::vector<Below> &upTo,
                     const PingNoiseSettings &settings)
     {
-        constexpr double splitMinimumValues = 16.0;
         const Index ranges = layout.ranges();
         for (Index range = 0; range < ranges; ++range) {
             const auto place = [&](Index at) { return std::size_t(std::clamp<Index>(at, 0, ranges)); };
@@ -160,7 +154,7 @@ namespace {
             const Below guarded = upTo[place(range + inner + 1)] - upTo[place(range - inner)];
             const Below used = window - guarded;
             float &own = estimate[std::size_t(layout.cell(beam, range))];
-            if (isNoise(own) && used.count >= splitMinimumValues && used.sum > 0.0)
+            if (isNoise(own) && used.count >= fewestRangeValues && used.sum > 0.0)
                 own += float(std::log(exponentialMean(used.sum / used.count)));
         }
     }
@@ -175,7 +169,7 @@ namespace {
                 if (!isNoise(estimate[cell]))
                     continue;
                 const float ratio = pings[std::size_t(first) + cell] * std::exp(-estimate[cell]);
-                if (ratio < truncatedRatio) { // not NaN
+                if (ratio < lineLimit) { // not NaN
                     below[cell].sum += double(ratio);
                     below[cell].count += 1.0;
                 }
@@ -215,7 +209,7 @@ bool levelPings(std::span<float> pings, std::span<const float> lnNoise)
         for (Index cell = 0; cell < cells; cell += step)
             if (const float p = pings[std::size_t(first + cell)]; isNoise(lnNoise[std::size_t(cell)]) && !std::isnan(p))
                 ratios.push_back(p * std::exp(-lnNoise[std::size_t(cell)]));
-        if (std::ssize(ratios) < fewestLevelCells)
+        if (std::ssize(ratios) < fewestPingLevelCells)
             continue;
         const double chance = 4.5 * medianScatter(double(ratios.size()));
         const float level = medianOf(ratios) / std::numbers::ln2_v<float>;
