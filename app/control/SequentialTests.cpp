@@ -55,7 +55,7 @@ void SequentialTests::forget()
     m_inspector.cancel();
     m_scanner.cancel();
     m_walks.clear();
-    m_survey.reset();
+    m_sectorRounds.reset();
     m_points.clear();
     m_prior.reset();
     m_fixedSize.reset();
@@ -145,18 +145,18 @@ void SequentialTests::runScans(const ScanTest &test, const RunContext &context)
             addWalks(std::move(walks));
         });
     }
-    deliver([this, survey = surveyScans(test, 0, context.part(0.15, 0.25))]() mutable {
-        m_survey = std::move(survey);
-        emit surveyChanged();
+    deliver([this, rounds = visitSectorsOf(test, 0, context.part(0.15, 0.25))]() mutable {
+        m_sectorRounds = std::move(rounds);
+        emit sectorRoundsChanged();
     });
     measureCurves(test, context.part(0.25, 0.6));
     deliver([this, fixedSize = fixedSizeOf(test, context.part(0.6, 1.0))] {
         m_fixedSize = fixedSize;
         m_isFixedSizeKnown = true;
         if (fixedSize)
-            m_survey->fixedStages = *fixedSize * Index(m_survey->visits.size());
+            m_sectorRounds->fixedStages = *fixedSize * Index(m_sectorRounds->visits.size());
         emit fixedSizeChanged();
-        emit surveyChanged();
+        emit sectorRoundsChanged();
     });
 }
 

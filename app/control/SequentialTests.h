@@ -19,7 +19,7 @@ namespace faintline {
 /// The sequential tests of this window: a radar's on simulated scans, or one on a recording's frames.
 ///
 /// Results arrive in parts while the tests run, always in the same order and with the same values: walks of both
-/// hypotheses, the survey of the sectors, curves against SNR and prior, the test of fixed size. One run is selected;
+/// hypotheses, the rounds over the sectors, curves against SNR and prior, the test of fixed size. One run is selected;
 /// its posterior, and the scan at the selected stage, are computed on request.
 class SequentialTests : public QObject
 {
@@ -68,7 +68,7 @@ public:
     const Selection &selection() const { return m_selection; }
 
     const std::vector<Walk> &walks() const { return m_walks; }
-    const std::optional<Survey> &survey() const { return m_survey; }
+    const std::optional<SectorRounds> &sectorRounds() const { return m_sectorRounds; }
     const std::vector<ScanPoint> &points() const { return m_points; }
     const std::optional<PriorCurve> &prior() const { return m_prior; }
     std::optional<Index> fixedSize() const { return m_fixedSize; }
@@ -89,7 +89,7 @@ public slots:
 signals:
     void restarted();
     void walksChanged();
-    void surveyChanged();
+    void sectorRoundsChanged();
     void curvesChanged();
     void fixedSizeChanged();
     void selectionChanged();
@@ -116,7 +116,7 @@ private:
     ScanTest m_test;
     Selection m_selection;
     std::vector<Walk> m_walks;
-    std::optional<Survey> m_survey;
+    std::optional<SectorRounds> m_sectorRounds;
     std::vector<ScanPoint> m_points;
     std::optional<PriorCurve> m_prior;
     std::optional<Index> m_fixedSize;

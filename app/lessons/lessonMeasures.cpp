@@ -225,8 +225,8 @@ namespace {
              }},
             {"survey.saved",
              [](WindowParts &window) -> Value {
-                 const auto &survey = window.sequentialTests().survey();
-                 return survey ? Value(survey->saving()) : std::nullopt;
+                 const auto &rounds = window.sequentialTests().sectorRounds();
+                 return rounds ? Value(rounds->saving()) : std::nullopt;
              }},
             {"why.lnP", lnTransitionOfPath},
             {"falseAlarmsPerHour", ofAnalysis([](const Analysis &analysis) {

@@ -152,8 +152,9 @@ QWidget *SequentialPanel::buildSectors()
     m_sectors->setEmptySentence(tr("The dwell time on each sector appears here."));
     m_sectors->setTitles(tr("sector"), tr("dwell, mean stages per look"));
     m_sectors->setAccessibleName(tr("Dwell time on each sector"));
-    m_views.add(m_sectors, tr("Sectors"),
-                [this] { return m_tests.survey() ? surveyCsv(m_tests.test(), *m_tests.survey()) : std::string(); });
+    m_views.add(m_sectors, tr("Sectors"), [this] {
+        return m_tests.sectorRounds() ? sectorsCsv(m_tests.test(), *m_tests.sectorRounds()) : std::string();
+    });
     return m_sectorsPage = column({m_sectors, m_sectorsText});
 }
 
@@ -186,7 +187,7 @@ void SequentialPanel::connectTests()
     connect(&m_tests, &SequentialTests::stageChanged, this, &SequentialPanel::showStage);
     connect(&m_tests, &SequentialTests::inspectionChanged, this, [this] { m_runText->setText(runSentence(m_tests)); });
     connect(&m_tests, &SequentialTests::curvesChanged, this, &SequentialPanel::showCurves);
-    connect(&m_tests, &SequentialTests::surveyChanged, this, &SequentialPanel::showSectors);
+    connect(&m_tests, &SequentialTests::sectorRoundsChanged, this, &SequentialPanel::showSectors);
     connect(&m_tests, &SequentialTests::failed, this, &SequentialPanel::failed);
     connect(&m_views, &SequentialViews::failed, this, &SequentialPanel::failed);
     connect(&m_views, &SequentialViews::written, this, &SequentialPanel::written);

@@ -20,7 +20,7 @@ class TrajectoryPage;
 class WalkPlot;
 
 /// Sequential tests: the walks between their boundaries and their stopping stages, one run's posterior and received
-/// power, stages against SNR and prior with their bounds, and the savings in a survey of sectors.
+/// power, stages against SNR and prior with their bounds, and the savings over rounds of sectors.
 ///
 /// J and L, or the slider, step through the stages of the selected run; a click on a walk selects it in all views.
 class SequentialPanel : public Panel

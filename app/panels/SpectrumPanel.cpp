@@ -42,7 +42,7 @@ SpectrumPanel::SpectrumPanel(Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_level(new QComboBox), m_calibration(new QDoubleSpinBox),
       m_plot(new ChartPlot), m_spectra(
                                  this, &SpectrumPanel::question,
-                                 [](const auto &analysis, double seconds, const Span &visible, SpectrumLevel level,
+                                 [](const auto &analysis, double seconds, const Span &visible, SpectrumQuantity level,
                                     const RunContext &context) {
                                      return spectraOf(*analysis, seconds, {visible.low, visible.high}, level, context);
                                  },
@@ -79,15 +79,15 @@ SpectrumPanel::SpectrumPanel(Document &document, QWidget *parent)
     follow();
 }
 
-SpectrumLevel SpectrumPanel::chosenLevel() const
+SpectrumQuantity SpectrumPanel::chosenLevel() const
 {
-    return m_level->currentIndex() == 0 ? SpectrumLevel::OverNoise : SpectrumLevel::Density;
+    return m_level->currentIndex() == 0 ? SpectrumQuantity::OverNoise : SpectrumQuantity::Density;
 }
 
 void SpectrumPanel::follow()
 {
     m_level->setEnabled(!m_document.isEmpty() && m_document.recording());
-    m_calibration->setVisible(chosenLevel() == SpectrumLevel::Density);
+    m_calibration->setVisible(chosenLevel() == SpectrumQuantity::Density);
     m_spectra.ask();
 }
 
@@ -101,7 +101,7 @@ SpectrumPanel::Asking::Question SpectrumPanel::question() const
         return m_document.live().isEmpty() ? QString() : Asking::Question();
     const auto &cursor = m_document.viewport().cursor();
     return std::tuple(analysis, cursor ? cursor->seconds : visible.middle(), visible,
-                      m_document.recording() ? chosenLevel() : SpectrumLevel::OverNoise);
+                      m_document.recording() ? chosenLevel() : SpectrumQuantity::OverNoise);
 }
 
 void SpectrumPanel::show()
@@ -109,7 +109,7 @@ void SpectrumPanel::show()
     const Spectra *spectra = m_spectra.answer();
     if (!spectra)
         return m_plot->setChart({});
-    const bool isDensity = chosenLevel() == SpectrumLevel::Density && m_document.recording();
+    const bool isDensity = chosenLevel() == SpectrumQuantity::Density && m_document.recording();
     const double added = isDensity ? m_calibration->value() : 0.0;
     const Span band = this->band();
     Chart chart{"Spectrum",

@@ -31,14 +31,14 @@ public:
 
 private:
     /// At the cursor's time, and the mean of the visible time.
-    using Asking = Inquiry<Spectra, std::shared_ptr<const Analysis>, double, Span, SpectrumLevel>;
+    using Asking = Inquiry<Spectra, std::shared_ptr<const Analysis>, double, Span, SpectrumQuantity>;
 
     Asking::Question question() const;
     void follow();
     void show();
     Span band() const;
     void markTeeth();
-    SpectrumLevel chosenLevel() const;
+    SpectrumQuantity chosenLevel() const;
 
     Document &m_document;
     QComboBox *m_level;

@@ -29,10 +29,10 @@ std::vector<BarPlot::Series> sectorBars(const SequentialTests &tests)
 {
     const ScanTest &test = tests.test();
     std::vector<BarPlot::Series> series{{tr("empty"), 0, {}}, {tr("with a target"), 1, {}}};
-    if (tests.survey()) {
+    if (tests.sectorRounds()) {
         for (BarPlot::Series &one : series)
             one.values.assign(std::size_t(test.sectors), 0.0);
-        for (const SectorVisit &visit : tests.survey()->visits)
+        for (const SectorVisit &visit : tests.sectorRounds()->visits)
             series[holdsTarget(test, visit.sector) ? 1 : 0].values[std::size_t(visit.sector)] +=
                 double(visit.result.stages) / test.rounds;
     }

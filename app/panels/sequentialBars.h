@@ -12,8 +12,8 @@ class SequentialTests;
 /// on a recording, because a single test has no histogram.
 std::vector<BarPlot::Series> stoppingBars(const SequentialTests &tests);
 
-/// Dwell time on each sector of a survey, in mean stages per look: empty sectors, and those with a target. No values
-/// without a survey.
+/// Dwell time on each sector over all rounds, in mean stages per look: empty sectors, and those with a target. No values
+/// without rounds.
 std::vector<BarPlot::Series> sectorBars(const SequentialTests &tests);
 
 } // namespace faintline

@@ -148,20 +148,20 @@ QString priorSentence(const SequentialTests &tests)
 
 QString sectorsSentence(const SequentialTests &tests)
 {
-    if (!tests.survey())
+    if (!tests.sectorRounds())
         return {};
-    const Survey &survey = *tests.survey();
+    const SectorRounds &rounds = *tests.sectorRounds();
     int looksAtTargets = 0;
     int found = 0;
     int falseAlarms = 0;
-    for (const SectorVisit &visit : survey.visits) {
+    for (const SectorVisit &visit : rounds.visits) {
         const bool isAccepted = visit.result.decision == SprtDecision::H1;
         const bool isTarget = holdsTarget(tests.test(), visit.sector);
         looksAtTargets += isTarget ? 1 : 0;
         found += isTarget && isAccepted ? 1 : 0;
         falseAlarms += !isTarget && isAccepted ? 1 : 0;
     }
-    const int looks = int(survey.visits.size());
+    const int looks = int(rounds.visits.size());
     const QString seen = tr(" %1 of %2 looks at sectors with a target find it; %3 of %4 looks at empty sectors end in "
                             "a false alarm.")
                              .arg(found)
@@ -169,20 +169,20 @@ QString sectorsSentence(const SequentialTests &tests)
                              .arg(falseAlarms)
                              .arg(looks - looksAtTargets);
     if (!tests.isFixedSizeKnown())
-        return tr("%1 looks take %2 stages.").arg(looks).arg(survey.stages) + seen;
+        return tr("%1 looks take %2 stages.").arg(looks).arg(rounds.stages) + seen;
     if (!tests.fixedSize())
         return tr("%1 looks take %2 stages; a test of fixed size would need more than 40 for each.")
                    .arg(looks)
-                   .arg(survey.stages)
+                   .arg(rounds.stages)
                + seen;
     return tr("%1 looks take %2 stages; tests of fixed size with the same errors, of about %3 stages each, would take "
               "%4: %5.")
                .arg(looks)
-               .arg(survey.stages)
+               .arg(rounds.stages)
                .arg(*tests.fixedSize())
-               .arg(survey.fixedStages)
-               .arg(survey.saving() >= 0.0 ? tr("%1 saved").arg(percent(survey.saving()))
-                                           : tr("%1 lost").arg(percent(-survey.saving())))
+               .arg(rounds.fixedStages)
+               .arg(rounds.saving() >= 0.0 ? tr("%1 saved").arg(percent(rounds.saving()))
+                                           : tr("%1 lost").arg(percent(-rounds.saving())))
            + seen;
 }
 

@@ -21,7 +21,7 @@ QString curvesSentence(const SequentialTests &tests);
 /// By how much the stages exceed the bounds if nothing is known about the trajectory.
 QString priorSentence(const SequentialTests &tests);
 
-/// Result of a survey of the sectors, and its saving compared with fixed-size tests.
+/// Result of the rounds over the sectors, and its saving compared with fixed-size tests.
 QString sectorsSentence(const SequentialTests &tests);
 
 } // namespace faintline

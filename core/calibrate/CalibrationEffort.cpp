@@ -12,7 +12,7 @@ CalibrationEffort effortOf(CalibrationDepth depth)
     effort.cellFrames = 1.6e7;
     effort.splitting.pilots = 60;
     effort.splitting.leastLnRate = -21.0;
-    effort.pieceWindowSamples = 16;
+    effort.splittingWindowSamples = 16;
     effort.isFirstEstimate = true;
     return effort;
 }

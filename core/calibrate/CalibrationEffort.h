@@ -14,7 +14,7 @@ struct CalibrationEffort {
     /// is known from splitting: its own error is larger than theirs.
     double enoughEvents = std::numeric_limits<double>::infinity();
     SplittingSettings splitting{};
-    int pieceWindowSamples = 32; ///< for the band in which splitting runs
+    int splittingWindowSamples = 32; ///< for the band in which splitting runs
     bool isFirstEstimate = false;
     double ofIndependentCells = 1.0; ///< fraction of the amount that their request specifies
 };

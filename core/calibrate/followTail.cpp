@@ -100,25 +100,25 @@ namespace {
 
 RareRates followTail(const AnalysisPlan &plan, const CalibrationEffort &effort, const RunContext &context)
 {
-    constexpr Index pieceCells = 64;
+    constexpr Index narrowCells = 64;
     const MarkovModel &model = plan.model;
     const AnalysisSettings &settings = plan.settings;
     if (model.space.axes().size() > 1 || !model.space.axes().front().transition.empty())
         return {};
     KinematicAxis axis = model.space.axes().front();
     const bool isSpectral = plan.frames->geometry().isOfSpectra();
-    const Index independentCells = std::max<Index>(pieceCells, 8 * axis.largestDisplacement() + 1);
+    const Index independentCells = std::max<Index>(narrowCells, 8 * axis.largestDisplacement() + 1);
     const std::function<std::unique_ptr<NoiseStream>()> makeNoise = [&] {
-        return isSpectral ? noiseOf(settings, effort.pieceWindowSamples) : independentNoise(independentCells);
+        return isSpectral ? noiseOf(settings, effort.splittingWindowSamples) : independentNoise(independentCells);
     };
     axis.cells = makeNoise()->cells();
     axis.cyclic = true;
     if (axis.cells <= 4 * axis.largestDisplacement())
         return {};
-    const MarkovModel piece{StateSpace({axis}), model.likelihood, model.transitionScale};
+    const MarkovModel narrow{StateSpace({axis}), model.likelihood, model.transitionScale};
     const Grid grid{{{axis.name, "", 0.0, 1.0, axis.cells, true}}};
     const FrameGeometry geometry = isSpectral ? frameGeometry(settings.spectrogram) : FrameGeometry{};
-    return ratesOf({settings.detector, piece, grid, geometry, plan.calibration->lnK, makeNoise}, effort.splitting,
+    return ratesOf({settings.detector, narrow, grid, geometry, plan.calibration->lnK, makeNoise}, effort.splitting,
                    context);
 }
 

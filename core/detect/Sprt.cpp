@@ -169,10 +169,10 @@ StageSource stagesOf(NormalisedFramesPointer frames, Index firstFrame, Index fir
         };
 }
 
-Survey survey(const SequentialModel &model, const SprtSettings &settings, const SurveyPlan &plan,
-              const SectorSource &source, const RunContext &context)
+SectorRounds visitSectors(const SequentialModel &model, const SprtSettings &settings, const SectorPlan &plan,
+                          const SectorSource &source, const RunContext &context)
 {
-    Survey made;
+    SectorRounds made;
     const Index looks = plan.sectors * plan.rounds;
     for (Index look = 0; look < looks; ++look) {
         SectorVisit visit{look / plan.sectors, look % plan.sectors, made.stages, {}};

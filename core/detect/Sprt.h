@@ -121,7 +121,7 @@ struct SectorVisit {
 };
 
 /// Rounds of looks and their cost.
-struct Survey {
+struct SectorRounds {
     std::vector<SectorVisit> visits; ///< in chronological order
     Index stages = 0;                ///< total number
     Index fixedStages = 0;           ///< that a test of fixed size would have spent
@@ -134,7 +134,7 @@ struct Survey {
 using SectorSource = std::function<StageSource(const SectorVisit &visit)>;
 
 /// Number of visits and maximum length of a look.
-struct SurveyPlan {
+struct SectorPlan {
     Index sectors = 1;
     Index rounds = 1;
     Index stagesAtMost = 1; ///< per look
@@ -145,7 +145,7 @@ struct SurveyPlan {
 /// are taken (no decision). Empty sectors, the majority, are left early, which is where a sequential test saves stages
 /// compared with one of `plan.fixedSize` stages per look. Source: Grossi and Lops 2006, section 4. Throws Error,
 /// Cancelled.
-Survey survey(const SequentialModel &model, const SprtSettings &settings, const SurveyPlan &plan,
-              const SectorSource &source, const RunContext &context = {});
+SectorRounds visitSectors(const SequentialModel &model, const SprtSettings &settings, const SectorPlan &plan,
+                          const SectorSource &source, const RunContext &context = {});
 
 } // namespace faintline

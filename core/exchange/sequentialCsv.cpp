@@ -36,10 +36,10 @@ std::string posteriorCsv(const PosteriorPicture &posterior)
     return csv;
 }
 
-std::string surveyCsv(const ScanTest &test, const Survey &survey)
+std::string sectorsCsv(const ScanTest &test, const SectorRounds &rounds)
 {
     std::string csv = "round,sector,target,first_stage,stages,decision\n";
-    for (const SectorVisit &visit : survey.visits)
+    for (const SectorVisit &visit : rounds.visits)
         csv += std::to_string(visit.round + 1) + "," + std::to_string(visit.sector + 1) + ","
                + (holdsTarget(test, visit.sector) ? "1" : "0") + "," + std::to_string(visit.firstStage) + ","
                + std::to_string(visit.result.stages) + "," + nameOfDecision(visit.result.decision) + "\n";

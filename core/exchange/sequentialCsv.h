@@ -20,6 +20,6 @@ std::string walksCsv(const std::vector<std::pair<ScanRun, SprtResult>> &walks, b
 std::string posteriorCsv(const PosteriorPicture &posterior);
 
 /// "round,sector,target,first_stage,stages,decision", one row per look.
-std::string surveyCsv(const ScanTest &test, const Survey &survey);
+std::string sectorsCsv(const ScanTest &test, const SectorRounds &rounds);
 
 } // namespace faintline

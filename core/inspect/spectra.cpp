@@ -18,13 +18,13 @@ namespace {
         return std::clamp<Index>(Index(std::llround(time.position(seconds))), 0, time.count - 1);
     }
 
-    /// Reads frames of an analysis in the unit of the level.
+    /// Reads frames of an analysis in the unit of the quantity.
     class Reader
     {
     public:
-        Reader(const Analysis &analysis, SpectrumLevel level)
+        Reader(const Analysis &analysis, SpectrumQuantity quantity)
             : m_frames(framesOfLines(analysis)),
-              m_spectrogram(level == SpectrumLevel::Density ? analysis.frames->spectrogram() : nullptr),
+              m_spectrogram(quantity == SpectrumQuantity::Density ? analysis.frames->spectrogram() : nullptr),
               m_values(std::size_t(axis().count))
         {
             if (!m_spectrogram)
@@ -54,10 +54,10 @@ namespace {
 
 } // namespace
 
-Spectra spectraOf(const Analysis &analysis, double seconds, const TimeSpan &time, SpectrumLevel level,
+Spectra spectraOf(const Analysis &analysis, double seconds, const TimeSpan &time, SpectrumQuantity quantity,
                   const RunContext &context)
 {
-    Reader reader(analysis, level);
+    Reader reader(analysis, quantity);
     const Axis &axis = reader.axis();
     const auto cells = std::size_t(axis.count);
     Spectra spectra;

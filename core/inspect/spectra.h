@@ -8,7 +8,7 @@
 namespace faintline {
 
 /// Quantity of a spectrum's values.
-enum class SpectrumLevel {
+enum class SpectrumQuantity {
     OverNoise, ///< y: power over the noise's mean power
     Density    ///< power per Hz, of samples whose full scale is 1; one-sided for real samples
 };
@@ -33,7 +33,7 @@ struct TimeSpan {
 ///   density = y·4^e/f_s for complex samples, twice that for real ones;  e = scaleExponent
 ///
 /// Oracle: white noise of variance σ² has the density 2σ²/f_s. Throws Cancelled.
-Spectra spectraOf(const Analysis &analysis, double seconds, const TimeSpan &time, SpectrumLevel level,
+Spectra spectraOf(const Analysis &analysis, double seconds, const TimeSpan &time, SpectrumQuantity quantity,
                   const RunContext &context = {});
 
 } // namespace faintline

@@ -33,15 +33,15 @@ bool WrittenSamples::isWhole(Index first, Index count) const
 
 void WrittenSamples::read(int channel, Index first, std::span<float> out) const
 {
-    std::vector<StoredPart> pieces;
+    std::vector<StoredPart> parts;
     { // the recorder does not wait for the disk
         const std::lock_guard lock(m_mutex);
         m_stretches.read(first, m_format.type.isComplex ? 2 : 1, out, [&](Index stored, std::span<float> part) {
-            pieces.push_back({stored, part});
+            parts.push_back({stored, part});
         });
     }
-    for (const StoredPart &piece : pieces)
-        readStored(channel, piece);
+    for (const StoredPart &part : parts)
+        readStored(channel, part);
 }
 
 /// The file that holds a sample; reduces `count` to the samples that lie in the same file.
@@ -59,20 +59,20 @@ std::pair<std::shared_ptr<const FileBytes>, WrittenSamples::File> WrittenSamples
     return {m_open, file};
 }
 
-void WrittenSamples::readStored(int channel, const StoredPart &piece) const
+void WrittenSamples::readStored(int channel, const StoredPart &part) const
 {
     const Index floats = m_format.type.isComplex ? 2 : 1;
-    const Index whole = std::ssize(piece.out) / floats;
+    const Index whole = std::ssize(part.out) / floats;
     std::vector<std::byte> bytes;
     for (Index done = 0, count = 0; done < whole; done += count) {
         count = whole - done;
-        const auto [file, place] = fileOf(piece.stored + done, count);
+        const auto [file, place] = fileOf(part.stored + done, count);
         bytes.assign(std::size_t(count * m_format.frameBytes()), std::byte{0});
-        file->readAt((piece.stored + done - place.firstStored) * m_format.frameBytes(), bytes);
+        file->readAt((part.stored + done - place.firstStored) * m_format.frameBytes(), bytes);
         convertSamples(m_format.type,
                        std::span<const std::byte>(bytes).subspan(std::size_t(channel * m_format.type.sampleBytes())),
                        m_format.frameBytes(),
-                       piece.out.subspan(std::size_t(done * floats), std::size_t(count * floats)));
+                       part.out.subspan(std::size_t(done * floats), std::size_t(count * floats)));
     }
 }
 

@@ -46,7 +46,7 @@ private:
         std::span<float> out;
     };
 
-    void readStored(int channel, const StoredPart &piece) const;
+    void readStored(int channel, const StoredPart &part) const;
     std::pair<std::shared_ptr<const FileBytes>, File> fileOf(Index stored, Index &count) const;
 
     StreamFormat m_format;

@@ -8,7 +8,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index pieceSamples = 1 << 15; ///< stored together
+    constexpr Index deliverySamples = 1 << 15; ///< stored together
 
 } // namespace
 
@@ -29,15 +29,15 @@ void StreamBuffer::push(std::vector<std::byte> bytes)
     {
         const std::lock_guard lock(m_mutex);
         m_heldBytes += bytes.size();
-        const bool goesOn = !m_pieces.empty() && m_pieces.back().first + m_pieces.back().count == m_length
-                            && m_pieces.back().count + count <= pieceSamples;
-        if (goesOn) { // many small pieces would cost more than they hold
-            Delivery &last = m_pieces.back();
+        const bool goesOn = !m_deliveries.empty() && m_deliveries.back().first + m_deliveries.back().count == m_length
+                            && m_deliveries.back().count + count <= deliverySamples;
+        if (goesOn) { // many small ones would cost more than they hold
+            Delivery &last = m_deliveries.back();
             last.bytes.insert(last.bytes.end(), bytes.begin(), bytes.end());
             last.count += count;
             last.heardAt = now;
         } else {
-            m_pieces.push_back({m_length, count, std::move(bytes), now});
+            m_deliveries.push_back({m_length, count, std::move(bytes), now});
         }
         m_length += count;
     }
@@ -93,13 +93,15 @@ bool StreamBuffer::isEnded() const
 std::chrono::steady_clock::time_point StreamBuffer::heardAt(Index position) const
 {
     const std::lock_guard lock(m_mutex);
-    const auto piece = std::partition_point(m_pieces.begin(), m_pieces.end(),
-                                            [=](const Delivery &each) { return each.first + each.count < position; });
-    if (piece == m_pieces.end())
+    const auto delivery = std::partition_point(m_deliveries.begin(), m_deliveries.end(), [=](const Delivery &each) {
+        return each.first + each.count < position;
+    });
+    if (delivery == m_deliveries.end())
         return std::chrono::steady_clock::now();
-    // The samples of a piece arrived at the sample rate.
-    const double later = double(std::max<Index>(0, piece->first + piece->count - position)) / m_format.sampleRateHz;
-    return piece->heardAt
+    // The samples of a delivery arrived at the sample rate.
+    const double later =
+        double(std::max<Index>(0, delivery->first + delivery->count - position)) / m_format.sampleRateHz;
+    return delivery->heardAt
            - std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(later));
 }
 
@@ -107,9 +109,9 @@ void StreamBuffer::release(Index position)
 {
     {
         const std::lock_guard lock(m_mutex);
-        while (!m_pieces.empty() && m_pieces.front().first + m_pieces.front().count <= position) {
-            m_heldBytes -= m_pieces.front().bytes.size();
-            m_pieces.pop_front();
+        while (!m_deliveries.empty() && m_deliveries.front().first + m_deliveries.front().count <= position) {
+            m_heldBytes -= m_deliveries.front().bytes.size();
+            m_deliveries.pop_front();
         }
     }
     m_changed.notify_all();
@@ -120,13 +122,13 @@ void StreamBuffer::read(int channel, Index first, Index count, std::span<float> 
     const Index floats = m_format.type.isComplex ? 2 : 1;
     std::fill_n(out.begin(), count * floats, 0.0f);
     const std::lock_guard lock(m_mutex);
-    auto piece = std::partition_point(m_pieces.begin(), m_pieces.end(),
-                                      [first](const Delivery &each) { return each.first + each.count <= first; });
-    for (; piece != m_pieces.end() && piece->first < first + count; ++piece) {
-        const Index from = std::max(first, piece->first);
-        const Index run = std::min(first + count, piece->first + piece->count) - from;
-        const Index offset = (from - piece->first) * m_format.frameBytes() + channel * m_format.type.sampleBytes();
-        convertSamples(m_format.type, std::span<const std::byte>(piece->bytes).subspan(std::size_t(offset)),
+    auto delivery = std::partition_point(m_deliveries.begin(), m_deliveries.end(),
+                                         [first](const Delivery &each) { return each.first + each.count <= first; });
+    for (; delivery != m_deliveries.end() && delivery->first < first + count; ++delivery) {
+        const Index from = std::max(first, delivery->first);
+        const Index run = std::min(first + count, delivery->first + delivery->count) - from;
+        const Index offset = (from - delivery->first) * m_format.frameBytes() + channel * m_format.type.sampleBytes();
+        convertSamples(m_format.type, std::span<const std::byte>(delivery->bytes).subspan(std::size_t(offset)),
                        m_format.frameBytes(),
                        out.subspan(std::size_t((from - first) * floats), std::size_t(run * floats)));
     }
@@ -135,11 +137,11 @@ void StreamBuffer::read(int channel, Index first, Index count, std::span<float> 
 bool StreamBuffer::isWhole(Index first, Index count) const
 {
     const std::lock_guard lock(m_mutex);
-    auto piece = std::partition_point(m_pieces.begin(), m_pieces.end(),
-                                      [first](const Delivery &each) { return each.first + each.count <= first; });
+    auto delivery = std::partition_point(m_deliveries.begin(), m_deliveries.end(),
+                                         [first](const Delivery &each) { return each.first + each.count <= first; });
     Index known = first;
-    for (; piece != m_pieces.end() && piece->first <= known && known < first + count; ++piece)
-        known = piece->first + piece->count;
+    for (; delivery != m_deliveries.end() && delivery->first <= known && known < first + count; ++delivery)
+        known = delivery->first + delivery->count;
     return known >= first + count;
 }
 

@@ -70,7 +70,7 @@ private:
     std::size_t m_capacity;
     mutable std::mutex m_mutex;
     mutable std::condition_variable_any m_changed;
-    std::deque<Delivery> m_pieces; ///< ascending; discontinuities are gaps
+    std::deque<Delivery> m_deliveries; ///< ascending; discontinuities are gaps
     std::size_t m_heldBytes = 0;
     Index m_length = 0;
     bool m_isEnded = false;

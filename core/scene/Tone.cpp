@@ -13,7 +13,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index pieceLength = 256;
+    constexpr Index runSamples = 256;
     constexpr double fadingStep = 0.02; ///< correlation times between nodes of the fading
 
     struct Parabola {
@@ -148,8 +148,8 @@ void Tone::addTo(Index first, std::span<float> out) const
         return;
     for (Index interval = intervalOf(at); at < end; ++interval)
         for (const Index intervalEnd = std::min(end, firstSampleOf(interval + 1)); at < intervalEnd;) {
-            const Index run = std::min(pieceLength, intervalEnd - at);
-            addPiece(interval, at, out.subspan(std::size_t((at - first) * floats), std::size_t(run * floats)));
+            const Index run = std::min(runSamples, intervalEnd - at);
+            addRun(interval, at, out.subspan(std::size_t((at - first) * floats), std::size_t(run * floats)));
             at += run;
         }
 }
@@ -162,16 +162,16 @@ float Tone::dwellAmplitude(Index sample) const
     return m_dwellAmplitudes[std::size_t(dwell)];
 }
 
-/// Adds at most pieceLength samples, all within one interval.
-void Tone::addPiece(Index interval, Index first, std::span<float> out) const
+/// Adds at most runSamples samples, all within one interval.
+void Tone::addRun(Index interval, Index first, std::span<float> out) const
 {
     const auto k = std::size_t(interval);
     const std::size_t count = out.size() / (m_isComplex ? 2 : 1);
     const std::vector<double> &frequency = m_truth.frequencyHz;
     const Parabola phase = {m_truth.startSeconds + double(interval) * m_truth.stepSeconds, m_turns[k],
                             frequency[k] - m_centreHz, (frequency[k + 1] - frequency[k]) / m_truth.stepSeconds};
-    std::array<float, pieceLength> cosine;
-    std::array<float, pieceLength> sine;
+    std::array<float, runSamples> cosine;
+    std::array<float, runSamples> sine;
     phasors(phase, double(first), 1.0 / m_sampleRateHz, std::span(cosine).first(count), sine.data());
 
     for (std::size_t i = 0; i < count && !m_fadingReal.empty(); ++i) {

@@ -37,7 +37,7 @@ public:
 private:
     Index firstSampleOf(Index interval) const;
     Index intervalOf(Index sample) const;
-    void addPiece(Index interval, Index first, std::span<float> out) const;
+    void addRun(Index interval, Index first, std::span<float> out) const;
     float dwellAmplitude(Index sample) const;
 
     TruthLine m_truth;

@@ -173,9 +173,9 @@ void tst_Sequential::scansFillTheViews()
     QCOMPARE(panel().variation().chart().curves.size(), std::size_t(2));
     QCOMPARE(panel().prior().chart().curves[0].points.size(), priorDeviations().size());
     QCOMPARE(panel().sectors().series().size(), std::size_t(2));
-    QCOMPARE(tests().survey()->visits.size(), std::size_t(18));
+    QCOMPARE(tests().sectorRounds()->visits.size(), std::size_t(18));
     QVERIFY(tests().fixedSize());
-    QCOMPARE(tests().survey()->fixedStages, 18 * *tests().fixedSize());
+    QCOMPARE(tests().sectorRounds()->fixedStages, 18 * *tests().fixedSize());
     QCOMPARE(tests().selected(), 1);
     QCOMPARE(panel().trajectory().posterior().yAxis().count, Index(20)); // the finest axis
     QCOMPARE(panel().trajectory().scan().values().size(), std::size_t(80));
@@ -198,7 +198,7 @@ void tst_Sequential::resultsDoNotDependOnTheWindow()
         QVERIFY(tests().walks()[i].second.lnLambda == walkScan(test, model, run).lnLambda);
     }
     QCOMPARE(tests().points()[3].h1.stages.value, measureScanPoint(test, curveSnrs(test)[3]).h1.stages.value);
-    QCOMPARE(tests().survey()->stages, surveyScans(test, 0).stages);
+    QCOMPARE(tests().sectorRounds()->stages, visitSectorsOf(test, 0).stages);
 }
 
 void tst_Sequential::aClickSelectsEverywhere()
@@ -317,7 +317,7 @@ void tst_Sequential::cancelLeavesWhatThereIs()
     ScanTest test = smallTest();
     test.trials = 100000;
     m_window->openScans(test);
-    QVERIFY(QTest::qWaitFor([this] { return tests().survey().has_value(); }, patience));
+    QVERIFY(QTest::qWaitFor([this] { return tests().sectorRounds().has_value(); }, patience));
     tests().cancel();
     QVERIFY(!tests().isRunning());
     QVERIFY(settle());

@@ -601,7 +601,7 @@ private slots:
         // Only sector 1 has a target, from the second round on: the echo is overwhelming there and half a nat short of
         // nothing elsewhere.
         const SequentialModel model = makeSequentialModel({axis(1)}, {false}, twoToOne);
-        const Survey made = survey(model, {}, {3, 2, 100, 20}, [](const SectorVisit &visit) -> StageSource {
+        const SectorRounds made = visitSectors(model, {}, {3, 2, 100, 20}, [](const SectorVisit &visit) -> StageSource {
             const bool isThere = visit.sector == 1 && visit.round == 1;
             return [isThere](Index, std::span<double> out) { out[0] = isThere ? 50.0 : 0.0; };
         });

@@ -251,7 +251,7 @@ private slots:
         test.sectors = 5;
         test.targetSectors = 1;
         test.rounds = 20;
-        const Survey made = surveyScans(test, 4);
+        const SectorRounds made = visitSectorsOf(test, 4);
         QCOMPARE(made.visits.size(), std::size_t(100));
         QCOMPARE(made.fixedStages, Index(400));
         int found = 0;

@@ -59,14 +59,14 @@ private slots:
         ScanTest test;
         test.sectors = 4;
         test.targetSectors = 1; // in the middle: sector number 2 of 0 … 3
-        Survey made;
+        SectorRounds made;
         made.visits = {{0, 1, 0, result(SprtDecision::H0, {-7.0})},
                        {0, 2, 1, result(SprtDecision::H1, {1.0, 2.0, 9.0})},
                        {1, 0, 4, result(SprtDecision::Undecided, {0.0, 0.0})}};
-        QCOMPARE(surveyCsv(test, made), std::string("round,sector,target,first_stage,stages,decision\n"
-                                                    "1,2,0,0,1,H0\n"
-                                                    "1,3,1,1,3,H1\n"
-                                                    "2,1,0,4,2,undecided\n"));
+        QCOMPARE(sectorsCsv(test, made), std::string("round,sector,target,first_stage,stages,decision\n"
+                                                     "1,2,0,0,1,H0\n"
+                                                     "1,3,1,1,3,H1\n"
+                                                     "2,1,0,4,2,undecided\n"));
     }
 
     void nothingButAHeader()
@@ -74,7 +74,7 @@ private slots:
         QCOMPARE(walksCsv({}, true), std::string("hypothesis,run,stage,lnLambda,decision\n"));
         QCOMPARE(walksCsv({{{true, 0}, result(SprtDecision::Undecided, {})}}, true), walksCsv({}, true));
         QCOMPARE(posteriorCsv({}), std::string("stage,cell,probability\n"));
-        QCOMPARE(surveyCsv({}, {}), std::string("round,sector,target,first_stage,stages,decision\n"));
+        QCOMPARE(sectorsCsv({}, {}), std::string("round,sector,target,first_stage,stages,decision\n"));
     }
 
     void quotesAreDoubled()

@@ -42,7 +42,7 @@ private slots:
         const auto analysis = analyse(std::make_shared<SimulatedRecording>(scene), settings);
         settings.family = {};
         const auto single = analyse(std::make_shared<SimulatedRecording>(scene), settings);
-        for (const SpectrumLevel level : {SpectrumLevel::Density, SpectrumLevel::OverNoise}) {
+        for (const SpectrumQuantity level : {SpectrumQuantity::Density, SpectrumQuantity::OverNoise}) {
             const Spectra spectra = spectraOf(*analysis, 10.0, {0.0, 30.0}, level);
             const Spectra expected = spectraOf(*single, 10.0, {0.0, 30.0}, level);
             QCOMPARE(spectra.position.back(), 250.0);
@@ -55,7 +55,7 @@ private slots:
     {
         for (const bool isComplex : {false, true}) {
             const auto analysis = noise(0.3, isComplex);
-            const Spectra spectra = spectraOf(*analysis, 30.0, {0.0, 60.0}, SpectrumLevel::Density);
+            const Spectra spectra = spectraOf(*analysis, 30.0, {0.0, 60.0}, SpectrumQuantity::Density);
             const double expected = (isComplex ? 1.0 : 2.0) * 0.3 * 0.3 / 500.0;
             QVERIFY2(std::abs(meanOf(spectra.mean) / expected - 1.0) < 0.05,
                      qPrintable(QString::number(meanOf(spectra.mean) / expected)));
@@ -65,7 +65,7 @@ private slots:
     void overTheNoiseItIsOne()
     {
         const auto analysis = noise(0.3, false);
-        const Spectra spectra = spectraOf(*analysis, 30.0, {0.0, 60.0}, SpectrumLevel::OverNoise);
+        const Spectra spectra = spectraOf(*analysis, 30.0, {0.0, 60.0}, SpectrumQuantity::OverNoise);
         QCOMPARE(std::ssize(spectra.mean), analysis->grid().size());
         QVERIFY(std::abs(meanOf(spectra.mean) - 1.0) < 0.05);
     }
@@ -76,7 +76,7 @@ private slots:
         std::vector<float> frame(std::size_t(analysis->grid().size()));
         analysis->frames->read(17, 1, frame);
         const double seconds = analysis->time().value(17.2);
-        const Spectra spectra = spectraOf(*analysis, seconds, {seconds, seconds}, SpectrumLevel::OverNoise);
+        const Spectra spectra = spectraOf(*analysis, seconds, {seconds, seconds}, SpectrumQuantity::OverNoise);
         for (std::size_t cell = 0; cell < frame.size(); ++cell) {
             QCOMPARE(spectra.frame[cell], double(frame[cell]));
             QCOMPARE(spectra.mean[cell], double(frame[cell])); // of one frame

@@ -250,10 +250,10 @@ MadeTrial InjectionTrials::remake(int trial, double snrDb) const
 }
 
 /// Runs the detectors on the band around one trial's line.
-class InjectionTrials::LineLook
+class InjectionTrials::LineReading
 {
 public:
-    LineLook(const InjectionTrials &trials, const MadeTrial &made, bool hasLine)
+    LineReading(const InjectionTrials &trials, const MadeTrial &made, bool hasLine)
         : m_experiment(trials.m_experiment), m_shared(*trials.m_shared), m_truth(made.truth),
           m_frames(framesAround(hasLine ? made.recording : m_shared.recording))
     {
@@ -268,7 +268,7 @@ public:
             const Index block = framesPerDecision(settings.detector, frameGeometry(settings.spectrogram));
             const Index blockEnd =
                 block == 1 ? lastNeeded : std::min(time.count - 1, (lastNeeded / block + 1) * block - 1);
-            m_looks.push_back({firstNeeded / block * block, blockEnd, block > 1});
+            m_readFrames.push_back({firstNeeded / block * block, blockEnd, block > 1});
             m_detectors.push_back(makeDetector(settings.detector, makeModel(settings.model, grid), grid,
                                                frameGeometry(settings.spectrogram), m_shared.rules[d]));
         }
@@ -289,10 +289,10 @@ public:
             const double seconds = time.value(double(frame));
             const Bins path = pathAt(seconds);
             for (std::size_t d = 0; d < m_detectors.size(); ++d) {
-                if (frame < m_looks[d].first || frame > m_looks[d].last)
+                if (frame < m_readFrames[d].first || frame > m_readFrames[d].last)
                     continue;
                 m_detectors[d]->update(y, statistic);
-                if (seconds < m_truth.startSeconds || (seconds > m_truth.endSeconds && !m_looks[d].waits))
+                if (seconds < m_truth.startSeconds || (seconds > m_truth.endSeconds && !m_readFrames[d].waits))
                     continue;
                 for (Index bin = path.from; bin <= path.to; ++bin)
                     largest[d] = std::max(largest[d], statistic[std::size_t(bin)]);
@@ -302,7 +302,7 @@ public:
     }
 
 private:
-    struct Look {
+    struct ReadFrames {
         Index first;
         Index last;
         bool waits; ///< until the first block end after the line
@@ -323,10 +323,10 @@ private:
 
     std::pair<Index, Index> frameRange() const
     {
-        Look all = m_looks.front();
-        for (const Look &look : m_looks) {
-            all.first = std::min(all.first, look.first);
-            all.last = std::max(all.last, look.last);
+        ReadFrames all = m_readFrames.front();
+        for (const ReadFrames &each : m_readFrames) {
+            all.first = std::min(all.first, each.first);
+            all.last = std::max(all.last, each.last);
         }
         return {all.first, all.last};
     }
@@ -354,7 +354,7 @@ private:
     const TruthLine &m_truth;
     std::shared_ptr<const NormalisedSpectrogram> m_frames;
     std::vector<std::unique_ptr<Detector>> m_detectors;
-    std::vector<Look> m_looks;
+    std::vector<ReadFrames> m_readFrames;
 };
 
 AnalysisSettings InjectionTrials::wholeSettings(std::size_t detector, const TruthLine &line) const
@@ -374,7 +374,7 @@ RunOutcome InjectionTrials::outcomeOf(int trial, const RunContext &quiet) const
 {
     const auto largestOn = [&](double snrDb, bool hasLine) {
         const MadeTrial made = remake(trial, snrDb);
-        std::vector<float> largest = LineLook(*this, made, hasLine).largest();
+        std::vector<float> largest = LineReading(*this, made, hasLine).largest();
         for (std::size_t d = 0; d < largest.size(); ++d)
             if (m_experiment.detectors[d].isWhole)
                 largest[d] =

@@ -30,7 +30,7 @@ public:
 private:
     RunOutcome outcomeOf(int trial, const RunContext &quiet) const override;
     struct Shared;
-    class LineLook;
+    class LineReading;
     Experiment m_experiment;
     std::unique_ptr<const Shared> m_shared;
 };

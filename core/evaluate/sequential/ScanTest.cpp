@@ -17,7 +17,7 @@ namespace {
 
     constexpr Index scanLimitStages = 2000;
     constexpr double mostCells = 0x1p20;
-    constexpr int firstLook = 1 << 24; ///< first run number of the survey
+    constexpr int firstLook = 1 << 24; ///< first run number of the sectors
 
     KinematicAxis spatialAxis(const char *name, Index cells, const ScanScene &scene)
     {
@@ -195,14 +195,14 @@ bool holdsTarget(const ScanTest &test, Index sector)
     return false;
 }
 
-Survey surveyScans(const ScanTest &test, Index fixedSize, const RunContext &context)
+SectorRounds visitSectorsOf(const ScanTest &test, Index fixedSize, const RunContext &context)
 {
     const auto source = [&](const SectorVisit &visit) {
         return scanStages(
             test, {holdsTarget(test, visit.sector), firstLook + int(visit.round * test.sectors + visit.sector)});
     };
-    return survey(scanModel(test.scene, test.designSnrDb), test.sprt,
-                  {test.sectors, test.rounds, stageLimit(test), fixedSize}, source, context);
+    return visitSectors(scanModel(test.scene, test.designSnrDb), test.sprt,
+                        {test.sectors, test.rounds, stageLimit(test), fixedSize}, source, context);
 }
 
 SequentialStudy studyOf(const ScanTest &test, double designSnrDb, std::optional<double> actualSnrDb)

@@ -77,7 +77,7 @@ bool holdsTarget(const ScanTest &test, Index sector);
 
 /// Rounds of looks into all sectors, each look in its own scans, with a target if its sector has one. `fixedSize`:
 /// stages per look of a test of fixed size. Throws Error, Cancelled.
-Survey surveyScans(const ScanTest &test, Index fixedSize, const RunContext &context = {});
+SectorRounds visitSectorsOf(const ScanTest &test, Index fixedSize, const RunContext &context = {});
 
 /// The same scenario for `simulate`: designed for one SNR, run at another or on noise.
 SequentialStudy studyOf(const ScanTest &test, double designSnrDb, std::optional<double> actualSnrDb);

@@ -47,7 +47,7 @@ NumPyLayout readNumPyLayout(const std::string &path);
 NumPyArray readNumPy(const std::string &path);
 NumPyDoubles readNumPyDoubles(const std::string &path);
 
-/// Writes a float32 array piece by piece; the file appears with `finish`, when it holds all values.
+/// Writes a float32 array part by part; the file appears with `finish`, when it holds all values.
 class NumPyWriter
 {
 public:
