@@ -8,7 +8,6 @@
 #include "base/json.h"
 #include "base/oneLine.h"
 #include "detect/SumDetector.h"
-#include "detect/statisticDecimals.h"
 #include "evaluate/comparison/trackScore.h"
 #include "exchange/ModelFile.h"
 #include "exchange/TopHits.h"

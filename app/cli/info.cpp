@@ -8,7 +8,6 @@
 #include "base/oneLine.h"
 #include "noise/openFrames.h"
 #include "noise/pings/guessPingValues.h"
-#include "noise/pings/openPings.h"
 
 #include <CLI/CLI.hpp>
 

@@ -8,7 +8,6 @@
 #include "calibrate/falseAlarmWords.h"
 #include "detect/SumDetector.h"
 #include "detect/makeDetector.h"
-#include "detect/statisticDecimals.h"
 #include "inspect/advice.h"
 #include "inspect/noiseLaw.h"
 #include "refine/subtractLines.h"

@@ -3,7 +3,6 @@
 #include "base/files/AtomicFile.h"
 #include "exchange/ModelFile.h"
 #include "noise/openFrames.h"
-#include "noise/pings/openPings.h"
 #include "signal/formats/NumPy.h"
 
 #include <CLI/CLI.hpp>

@@ -3,7 +3,7 @@
 #include "calibrate/CalibrationRequest.h"
 #include "calibrate/calibrateOn.h"
 #include "calibrate/keptCalibration.h"
-#include "frames/channelCount.h"
+#include "frames/Spectrogram.h"
 #include "noise/CausalSpectrogram.h"
 #include "scene/SimulatedRecording.h"
 #include "signal/ArrayRecording.h"

@@ -1,7 +1,7 @@
 #include "calibrate/CalibrationRequest.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/followTail.h"
-#include "frames/channelCount.h"
+#include "frames/Spectrogram.h"
 #include "signal/Fft.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "base/Random.h"
 #include "calibrate/measureRareRates.h"
 #include "detect/Smd.h"
-#include "frames/channelCount.h"
+#include "frames/Spectrogram.h"
 #include "noise/NoiseNormaliser.h"
 
 #include <algorithm>

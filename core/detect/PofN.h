@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/Field.h"
-#include "detect/CopiedState.h"
+#include "detect/Detector.h"
 
 #include <vector>
 

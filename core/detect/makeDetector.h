@@ -77,4 +77,10 @@ Index framesPerDecision(const DetectorSettings &settings, const FrameGeometry &g
 std::unique_ptr<Detector> makeDetector(const DetectorSettings &settings, const MarkovModel &model, const Grid &grid,
                                        const FrameGeometry &geometry, const ResetRule &rule);
 
+/// Number of decimals of a displayed statistic: a hundredth matters for noise power, not for a nat.
+inline int statisticDecimals(const DetectorSettings &settings)
+{
+    return statisticUnit(settings) == "nat" ? 1 : 2;
+}
+
 } // namespace faintline

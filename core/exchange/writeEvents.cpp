@@ -4,7 +4,6 @@
 #include "base/Overloaded.h"
 #include "base/files/AtomicFile.h"
 #include "base/json.h"
-#include "detect/statisticDecimals.h"
 #include "exchange/csvText.h"
 #include "exchange/reviewedText.h"
 

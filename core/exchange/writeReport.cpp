@@ -2,7 +2,6 @@
 
 #include "base/numberText.h"
 #include "base/utc.h"
-#include "detect/statisticDecimals.h"
 
 #include <algorithm>
 #include <cmath>

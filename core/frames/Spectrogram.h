@@ -134,4 +134,7 @@ private:
     Axis m_frequency;
 };
 
+/// Number of channels whose evidence is added. Throws Error if it depends on the recording.
+int channelCount(const SelectionSettings &selection);
+
 } // namespace faintline

@@ -2,7 +2,7 @@
 
 #include "base/Random.h"
 #include "calibrate/noiseStreams.h"
-#include "frames/channelCount.h"
+#include "frames/Spectrogram.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 #include "recursion/PathTrace.h"
 #include "track/Cluster.h"
 #include "track/HmmTracker.h"
-#include "track/PlaceIndex.h"
 #include "track/RivalModels.h"
 #include "track/Track.h"
 #include "track/joinTracks.h"
@@ -20,6 +19,8 @@
 #include <vector>
 
 namespace faintline {
+
+class PlaceIndex;
 
 /// Settings of the chain apart from the model, in cells of the grid and nats.
 struct ChainSettings {

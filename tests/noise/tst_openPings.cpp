@@ -1,4 +1,3 @@
-#include "noise/pings/openPings.h"
 #include "support/frames.h"
 #include "support/test.h"
 

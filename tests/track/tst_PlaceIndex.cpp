@@ -1,6 +1,6 @@
 #include "base/Random.h"
 #include "support/test.h"
-#include "track/PlaceIndex.h"
+#include "track/closeTrackers.h"
 
 using namespace faintline;
 

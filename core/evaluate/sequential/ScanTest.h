@@ -3,7 +3,7 @@
 #include "base/Field.h"
 #include "detect/Sprt.h"
 #include "evaluate/experiments/Chart.h"
-#include "evaluate/sequential/SequentialStudy.h"
+#include "evaluate/sequential/SequentialTrial.h"
 #include "evaluate/sequential/simulate.h"
 #include "evaluate/theory/waldTheory.h"
 #include "scene/ScanScene.h"

@@ -2,7 +2,7 @@
 
 #include "base/Interval.h"
 #include "base/RunContext.h"
-#include "evaluate/sequential/SequentialStudy.h"
+#include "evaluate/sequential/SequentialTrial.h"
 
 #include <optional>
 #include <vector>
