@@ -259,10 +259,6 @@ void FamilyMap::applyInTurn(std::span<const float> y, std::span<float> out) cons
     Gathered all(out);
     std::vector<float> member(out.size());
     for (std::span<const std::int32_t> places = m_places; !places.empty(); places = places.subspan(ofMember)) {
-        if (m_channels == 1) {
-            all.add(y, places.first(ofMember), larger);
-            continue;
-        }
         Gathered channels(member);
         channels.add(y, places.first(ofMember), std::plus<float>());
         channels.finish(PowerOfSum());

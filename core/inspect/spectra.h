@@ -28,7 +28,7 @@ struct TimeSpan {
 };
 
 /// The frame nearest to `seconds`, and the mean over `time`: of all its frames, or of 400 evenly spread ones. Values
-/// that were not observed are omitted from the mean and NaN in a frame. A density needs a recording (`spectrogram()`).
+/// that were not observed are omitted from the mean and NaN in a frame. A density needs a recording.
 ///
 ///   density = y·4^e/f_s for complex samples, twice that for real ones;  e = scaleExponent
 ///

@@ -123,9 +123,9 @@ namespace {
         constexpr std::size_t framesAtOnce = 16;
         struct Work {
             explicit Work(const Analysis &analysis)
-                : fft(analysis.frames->spectrogram()->transformLength(), Fft::Input::Real), buffer(fft.buffer()),
-                  detector(analysis.model, {ResetLaw::Fixed, analysis.calibration->lnK}), cells(analysis.grid().size()),
-                  y(exponentials(framesAtOnce * std::size_t(cells))), statistic(y.size())
+                : fft(Fft::fastLength(2 * analysis.frames->geometry().windowSamples), Fft::Input::Real),
+                  buffer(fft.buffer()), detector(analysis.model, {ResetLaw::Fixed, analysis.calibration->lnK}),
+                  cells(analysis.grid().size()), y(exponentials(framesAtOnce * std::size_t(cells))), statistic(y.size())
             {
             }
             Fft fft;
