@@ -1,6 +1,5 @@
 #include "app/cli/commands.h"
 #include "app/cli/inRange.h"
-#include "app/cli/printSummary.h"
 #include "app/cli/provenance.h"
 
 #include "analyse/analyse.h"

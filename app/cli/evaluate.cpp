@@ -11,7 +11,6 @@
 #include "evaluate/experiments/campaignCharts.h"
 #include "exchange/CampaignFile.h"
 #include "exchange/writeChart.h"
-#include "signal/openRecording.h"
 
 #include <CLI/CLI.hpp>
 

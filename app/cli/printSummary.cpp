@@ -1,12 +1,10 @@
 #include "app/cli/printSummary.h"
 
-#include "analyse/chooseWindow.h"
 #include "analyse/events.h"
 #include "analyse/regulation.h"
 #include "base/numberText.h"
 #include "base/oneLine.h"
 #include "calibrate/falseAlarmWords.h"
-#include "detect/SumDetector.h"
 #include "detect/makeDetector.h"
 #include "inspect/advice.h"
 #include "inspect/noiseLaw.h"

@@ -8,7 +8,6 @@
 #include "detect/averagedStages.h"
 #include "exchange/ModelFile.h"
 #include "noise/openFrames.h"
-#include "plan/Analysis.h"
 #include "plan/lineSequentialModel.h"
 
 #include <CLI/CLI.hpp>

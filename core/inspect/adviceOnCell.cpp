@@ -1,4 +1,3 @@
-#include "analyse/events.h"
 #include "base/driftWords.h"
 #include "base/numberText.h"
 #include "inspect/advice.h"

@@ -1,7 +1,6 @@
 #include "track/Cluster.h"
 
 #include "base/multiversion.h"
-#include "detect/Detector.h"
 #include "track/constants.h"
 
 #include <algorithm>

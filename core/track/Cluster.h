@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/CellBox.h"
 #include "base/Grid.h"
-#include "detect/Detector.h"
 
 #include <span>
 #include <vector>

@@ -12,7 +12,6 @@
 #include "exchange/survey/writeSurvey.h"
 #include "noise/openFrames.h"
 #include "plan/firstSettings.h"
-#include "plan/slopeUnit.h"
 #include "signal/fileHash.h"
 #include "signal/formats/SigmfRecording.h"
 
