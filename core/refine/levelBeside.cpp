@@ -91,7 +91,6 @@ namespace {
         std::vector<float> m_values;
     };
 
-    constexpr Index areaMinimumFrames = 6;
     constexpr Index areaSampledFrames = 256; ///< of a piece of time
     constexpr double mainLobeCells = 1.5;
     constexpr double flankCells = 2.0;
@@ -124,13 +123,19 @@ namespace {
         {
             double level = 1.0;
             double gain = gainOf(first, end, level);
-            if (end - first >= 2 * areaMinimumFrames) {
+            if (end - first >= 2) {
                 const Index middle = (first + end) / 2;
                 if (const double parts = search(first, middle) + search(middle, end); parts > gain)
                     return parts;
             }
             std::fill(m_levels.begin() + first, m_levels.begin() + end, level);
             return gain;
+        }
+
+        /// Nats for the choice of the sides, of four, and of the place among those of equal length.
+        double price(Index first, Index end) const
+        {
+            return std::log(4.0 * double(m_strip.frameCount()) / double(end - first));
         }
 
         double gainOf(Index first, Index end, double &level)
@@ -153,11 +158,11 @@ namespace {
             std::nth_element(m_values.begin(), median, m_values.end());
             const double sum = std::accumulate(m_values.begin(), median + 1, 0.0);
             const double mean = (sum + double(m_values.size() - lower) * double(*median)) / double(lower);
-            const double independent = double(lower) * double(step) / m_cellsAsOne;
+            const double independent = double(lower) / m_cellsAsOne;
             if (mean <= 1.0)
                 return 0.0;
-            const double gain =
-                independent * (mean - 1.0 - std::log(mean)) - 0.5 * std::log(std::max(1.0, independent));
+            const double gain = independent * (mean - 1.0 - std::log(mean)) - 0.5 * std::log(std::max(1.0, independent))
+                                - price(first, end);
             if (gain <= 0.0)
                 return 0.0;
             level = mean;

@@ -26,9 +26,12 @@ Index levelBesideHalfWidth(double binsPerCell);
 /// An area is piecewise constant on the best dyadic partition of time. The level of a piece is the maximum-likelihood
 /// one of the lower half r of its n cells (a censored exponential law), so that lines may hold the other half:
 ///
-///   a = (Σ r lowest + (n - r)·y_r)/r,   and it exists if   k (a - 1 - ln a) - ½ ln k > 0,   k = r/(bins a cell · c)
+///   a = (Σ r lowest + (n - r)·y_r)/r,   k = r/(bins a cell · c)
 ///
-/// c: cells that count as one, cellLikeness. The cells are those on the left, on the right and on both sides, at 2.5 to 7
+///   and it exists if   k (a - 1 - ln a) - ½ ln k - ln(4 m) > 0
+///
+/// c: cells that count as one, cellLikeness; m: pieces of that length in all frames, so that 4 m is the number of choices
+/// of sides and place. On noise the level is 1.00 to 1.01 in the mean. The cells are those on the left, on the right and on both sides, at 2.5 to 7
 /// resolution cells from the path, and those on both sides at n to n + 2, n = 1.5 + what the path moves within a window
 /// (two frames); the largest level counts. On one side alone, a single line would fill these two cells. y: without the
 /// path's own leakage.

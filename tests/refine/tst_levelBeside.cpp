@@ -60,6 +60,8 @@ private slots:
     void linesBesideDoNotCount();
     void whatWasNotObserved();
     void areasAreFoundWithTheirLevel();
+    void onNoiseNoLevelIsRaised();
+    void aBurstOfTwoFramesIsAnArea();
     void linesAreNoArea();
     void aNarrowBandIsAnArea();
 };
@@ -129,6 +131,39 @@ void tst_levelBeside::areasAreFoundWithTheirLevel()
     QVERIFY(mean(levels, 0, 190) < 1.3);
     const double inside = mean(levels, 210, 400);
     QVERIFY2(inside > 3.5 && inside < 4.8, qPrintable(QString::number(inside)));
+}
+
+/// The mean logarithm of the levels of noise, whatever the number of frames.
+void tst_levelBeside::onNoiseNoLevelIsRaised()
+{
+    for (const Index frames : {50, 400, 4000}) {
+        double sum = 0.0;
+        for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+            const PathStrip strip = noise(frames, seed);
+            for (const double level : areaLevels(strip, pathOf(strip), binsPerCell, hannLikeness))
+                sum += std::log(level) / (20.0 * double(frames));
+        }
+        QVERIFY2(sum < 0.01, qPrintable(QString("%1 of %2 frames").arg(sum).arg(frames)));
+    }
+}
+
+/// Of 12 dB beside the path, anywhere in 200 frames, and not in the others.
+void tst_levelBeside::aBurstOfTwoFramesIsAnArea()
+{
+    double inside = 0.0;
+    double outside = 0.0;
+    for (Index seed = 1; seed <= 20; ++seed) {
+        PathStrip strip = noise(200, std::uint64_t(seed));
+        const Index first = 9 * seed;
+        raise(strip, first, first + 2, -strip.halfWidth, strip.halfWidth, 16.0f);
+        std::vector<double> levels = areaLevels(strip, pathOf(strip), binsPerCell, hannLikeness);
+        for (double &level : levels)
+            level = std::log(level);
+        inside += mean(levels, first, first + 2) / 20.0;
+        outside += (mean(levels, 0, first) + mean(levels, first + 2, 200)) / 40.0;
+    }
+    QVERIFY2(inside > std::log(10.0), qPrintable(QString::number(inside)));
+    QVERIFY2(outside < 0.03, qPrintable(QString::number(outside)));
 }
 
 /// A line next to the path, 4 of the 10 bins on that side. Of the other 6, the lowest 5 are those below 1.79 (5 of 6):
