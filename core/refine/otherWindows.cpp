@@ -16,6 +16,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <ranges>
 #include <set>
 #include <utility>
 
@@ -195,6 +196,24 @@ namespace {
         return part;
     }
 
+    /// A part of a track, and what its path loses between the part before and this one, nat.
+    struct Part {
+        Track track;
+        double loss;
+    };
+
+    struct Parts {
+        double gain; ///< of the strongest path through all of them, nat
+        std::vector<Part> each;
+    };
+
+    /// Two parts between which the path of their track loses less than the threshold.
+    struct Join {
+        std::size_t before; ///< numbers of their signals
+        std::size_t after;
+        Track whole; ///< in the base's frames
+    };
+
     /// Cells of the base's frames, in each of them from the lowest to the highest one.
     struct BaseCells {
         PathStrip strip;
@@ -262,6 +281,12 @@ namespace {
 
         AskedWindows take()
         {
+            for (const auto &[before, after, whole] : std::views::reverse(m_joins)) {
+                if (m_tracks[before].points.empty() || m_tracks[after].points.empty())
+                    continue;
+                extend(before, m_tracks[after], whole);
+                m_tracks[after] = {};
+            }
             std::erase_if(m_tracks, [](const Track &track) { return track.points.empty(); });
             numberByDetection(m_tracks);
             return {std::move(m_tracks), m_isTooLong, knowsBetter()};
@@ -433,12 +458,10 @@ namespace {
                 if (isBetterKnown(x, {s}))
                     m_betterKnown.insert(s);
             if ((isBetter || pieces.size() > 1) && areOnePath(pieces, curve))
-                if (const std::vector<Track> parts = partsOf(x, strip, pieces); !parts.empty()) {
+                if (const Parts parts = partsOf(x, strip, pieces); !parts.each.empty()) {
                     const Index first = x.points.front().frame;
-                    const Track whole =
-                        partOf(x, std::size_t(parts.front().onsetFrame - first),
-                               std::size_t(parts.back().endFrame + 1 - first),
-                               std::ranges::max_element(parts, {}, &Track::peakStatistic)->peakStatistic);
+                    const Track whole = partOf(x, std::size_t(parts.each.front().track.onsetFrame - first),
+                                               std::size_t(parts.each.back().track.endFrame + 1 - first), parts.gain);
                     const Curve path(whole, *m_other);
                     const std::vector<std::size_t> own = followersOf(path);
                     if (areOnePath(own, path) && isBetterKnown(whole, own)) {
@@ -448,47 +471,60 @@ namespace {
                 }
             if (!isBetter && !isShorter())
                 return;
-            for (const Track &part : partsOf(x, strip, {})) {
+            constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+            std::size_t last = none; // the signal that was added for the part before
+            for (const auto &[part, loss] : partsOf(x, strip, {}).each) {
                 const Curve alone(part, *m_other);
                 const bool isInPiece = std::ranges::any_of(pieces, [&](std::size_t s) {
                     return alone.start() >= m_curves[s].heardFrom() && alone.end() <= m_curves[s].heardUntil();
                 });
-                if (!isInPiece
-                    && ((isBetter && isSeenBetter(alone)) || (isShorter() && hasItsEnergyInBase(alone, part, cells)))) {
-                    noteMovement(alone);
-                    Track known = inFramesOf(m_base, *m_other, part);
-                    const auto piece = std::ranges::find_if(
-                        pieces, [&](std::size_t s) { return areConnected(m_tracks[s], known, x); });
-                    if (piece != pieces.end())
-                        extend(*piece, known, x);
-                    else
-                        add(std::move(known));
+                if (isInPiece
+                    || !((isBetter && isSeenBetter(alone))
+                         || (isShorter() && hasItsEnergyInBase(alone, part, cells)))) {
+                    last = none;
+                    continue;
+                }
+                noteMovement(alone);
+                Track known = inFramesOf(m_base, *m_other, part);
+                const auto piece =
+                    std::ranges::find_if(pieces, [&](std::size_t s) { return areConnected(m_tracks[s], known, x); });
+                if (piece != pieces.end()) {
+                    extend(*piece, known, inFramesOf(m_base, *m_other, x));
+                    last = none;
+                } else {
+                    if (last != none && loss < m_other->threshold)
+                        m_joins.push_back({last, m_tracks.size(), inFramesOf(m_base, *m_other, x)});
+                    last = m_tracks.size();
+                    add(std::move(known));
                 }
             }
         }
 
         /// The parts of a track in which it is present over the floor of all signals but some, and that have sufficient
         /// evidence alone, which is their statistic.
-        std::vector<Track> partsOf(const Track &x, PathStrip strip, const std::vector<std::size_t> &leftOut)
+        Parts partsOf(const Track &x, PathStrip strip, const std::vector<std::size_t> &leftOut)
         {
             divideBySignals(strip, leftOut);
             divideBySurroundings(strip, x);
-            std::vector<Track> result;
-            if (gainOf(strip) < sureStatistic(*m_other))
+            Parts result{gainOf(strip), {}};
+            if (result.gain < sureStatistic(*m_other))
                 return result;
             m_model.ends = {.absentBefore = true, .absentAfter = true};
-            const std::vector<float> present = lookBothWays(strip, m_model).endsBy;
-            const auto isPresent = [&](std::size_t i) { return present[i] > 0.5f; };
-            for (std::size_t from = 0, to = 0; from < present.size(); from = to) {
-                while (to < present.size() && isPresent(to) == isPresent(from))
-                    ++to;
+            const BothWays seen = lookBothWays(strip, m_model);
+            const auto isPresent = [&](std::size_t i) { return seen.endsBy[i] > 0.5f; };
+            double loss = 0.0;
+            for (std::size_t from = 0, to = 0; from < seen.endsBy.size(); from = to) {
+                const double before = loss;
+                for (; to < seen.endsBy.size() && isPresent(to) == isPresent(from); ++to)
+                    loss -= seen.gains[to];
                 if (!isPresent(from) || to - from < 2)
                     continue;
                 const PathStrip part = partOf(strip, from, to);
                 const double gain = gainOf(part);
                 if (gain * evidenceLeft(part, *m_noise) < sureStatistic(*m_other))
                     continue;
-                result.push_back(partOf(x, from, to, gain));
+                result.each.push_back({partOf(x, from, to, gain), before});
+                loss = 0.0;
             }
             return result;
         }
@@ -615,9 +651,8 @@ namespace {
         }
 
         /// Continues a signal to the ends of a part of the other window's track, along that.
-        void extend(std::size_t s, const Track &part, const Track &x)
+        void extend(std::size_t s, const Track &part, const Track &whole)
         {
-            const Track whole = inFramesOf(m_base, *m_other, x);
             Track &own = m_tracks[s];
             const auto at = [&](const auto &values, Index frame) {
                 return values.begin() + (frame - whole.onsetFrame);
@@ -659,6 +694,7 @@ namespace {
         const Analysis &m_base;
         std::vector<Track> m_tracks; ///< without points: replaced
         std::vector<Curve> m_curves; ///< of these
+        std::vector<Join> m_joins;   ///< in the order in which the parts were added
         const Analysis *m_other = nullptr;
         double m_shortest = std::numeric_limits<double>::infinity(); ///< window of those asked, s
         bool m_isTooLong = false;                                    ///< see AskedWindows, as the next

@@ -50,6 +50,8 @@ struct AskedWindows {
 ///
 ///                 Σ (y - 1)/w ≥ ½ Σ r    y: the base's cells within one of where X is during T0; r: X's power over the
 ///                                        noise's; w: sum of the main lobe's powers over its largest one, in bins
+///   joining     in the end, successive parts of X that were added and still are tracks are one, if the path of X loses
+///               less than the threshold between them.
 ///
 /// Windows of fewer than OwnNoiseLaw::fewestFrames frames are not asked. Positions are interpolated between frames;
 /// statistics are shifted by the difference of the two thresholds, and powers divided by the ratio of the windows, so that

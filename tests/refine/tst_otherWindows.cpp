@@ -84,6 +84,7 @@ private slots:
     void oneThatWandersBesideLinesThatStandStillIsFound();
     void strongLinesThatStandStillStay();
     void shorterWindowsAreTriedForWhatIsTooFast();
+    void partsBetweenWhichLittleIsLostAreOneTrack();
     void aChangeOfTheThresholdAsksAgain();
 };
 
@@ -259,6 +260,20 @@ void tst_otherWindows::shorterWindowsAreTriedForWhatIsTooFast()
                  qPrintable(QString::number(event.windowSeconds)));
         QVERIFY(event.endSeconds - event.onsetSeconds > (isFast ? 0.7 : 1.2));
     }
+}
+
+/// Strong glides that only a shorter window sees, each with a pause.
+void tst_otherWindows::partsBetweenWhichLittleIsLostAreOneTrack()
+{
+    LineScene glides = scene(16000.0, 40.0, 4);
+    for (const double start : {4.0, 14.0, 24.0}) {
+        glides.lines.push_back(line(4000.0, -1500.0, start, 0.7, 16.0, 0.0125));
+        glides.lines.push_back(line(4000.0 - 1500.0 * 0.9, -1500.0, start + 0.9, 0.7, 16.0, 0.0125));
+    }
+    const std::vector<Event> found = ofAnotherWindow(*analysed(glides));
+    QCOMPARE(found.size(), std::size_t(3));
+    for (const Event &event : found)
+        QVERIFY(event.endSeconds - event.onsetSeconds > 1.2);
 }
 
 void tst_otherWindows::aChangeOfTheThresholdAsksAgain()
