@@ -1,5 +1,6 @@
 // The window, and its subcommands that draw pictures without a screen.
 
+#include "app/cli/addOpening.h"
 #include "app/render/pictureResults.h"
 #include "app/render/renderCommand.h"
 #include "app/render/replayPicture.h"

@@ -1,3 +1,4 @@
+#include "app/cli/addOpening.h"
 #include "app/cli/commands.h"
 #include "app/cli/inRange.h"
 
@@ -143,11 +144,7 @@ void AnalysisOptions::addSettingsTo(CLI::App &command, Common &common)
         ->allow_extra_args(false);
     command.add_option("--channel", channel, "Channel, counted from 0")->check(inRange(0, 1023));
     part.addTo(command);
-    command.add_flag("--iq", open.iq, "Treat two channels as I and Q");
-    command.add_option("--raw-type", open.rawType, "Sample type of a raw file, as in SigMF: ci16_le, rf32_le …");
-    command.add_option("--raw-rate", open.rawRateHz, "Sample rate of a raw file, Hz")->check(isRawRate());
-    command.add_option("--raw-channels", open.rawChannels, "Channels of a raw file")->check(isRawChannels());
-    command.add_option("--raw-header", open.rawHeaderBytes, "Bytes before the first sample of a raw file");
+    addOpening(command, open);
 }
 
 std::optional<Session> AnalysisOptions::namedSession() const

@@ -19,16 +19,4 @@ inline CLI::Validator inRange(double least, double most)
     return {refusal, range};
 }
 
-/// Sample rates of raw samples, Hz.
-inline CLI::Validator isRawRate()
-{
-    return inRange(1e-9, 1e15);
-}
-
-/// How many channels they can have.
-inline CLI::Validator isRawChannels()
-{
-    return inRange(1, 1024);
-}
-
 } // namespace faintline

@@ -1,5 +1,5 @@
+#include "app/cli/addOpening.h"
 #include "app/cli/commands.h"
-#include "app/cli/inRange.h"
 #include "app/cli/printSummary.h"
 
 #include "base/files/fileName.h"
@@ -194,9 +194,7 @@ void addInfo(CLI::App &app, Common &)
     CLI::App *command = app.add_subcommand("info", "Print the properties of a recording");
     command->add_option("FILE", options->file, "Recording")->required();
     command->add_flag("--json", options->json, "Print as JSON");
-    command->add_flag("--iq", options->open.iq, "Treat two channels as I and Q");
-    command->add_option("--raw-type", options->open.rawType, "Sample type of a raw file, as in SigMF");
-    command->add_option("--raw-rate", options->open.rawRateHz, "Sample rate of a raw file, Hz")->check(isRawRate());
+    addOpening(*command, options->open);
     command->callback([options] {
         const Source source = sourceIn(options->file, options->open);
         if (const auto pings = pingsOf(source)) {

@@ -1,14 +1,13 @@
 #pragma once
 
-#include "signal/openRecording.h"
+#include "signal/fileFormats.h"
+
+#include "widgets/forms/FieldForm.h"
 
 #include <QDialog>
 
-class QCheckBox;
-class QComboBox;
-class QDoubleSpinBox;
+class QDialogButtonBox;
 class QLabel;
-class QSpinBox;
 
 namespace faintline {
 
@@ -21,18 +20,15 @@ public:
     /// Initialised from the file's name.
     explicit OpenOptionsDialog(const QString &path, QWidget *parent = nullptr);
 
-    OpenOptions options() const;
+    const OpenOptions &options() const { return m_form->value(); }
 
 private:
     void showLength();
 
     qint64 m_fileBytes;
-    QComboBox *m_type;
-    QDoubleSpinBox *m_rate;
-    QSpinBox *m_channels;
-    QSpinBox *m_header;
-    QCheckBox *m_iq;
+    FieldForm<OpenOptions> *m_form;
     QLabel *m_length;
+    QDialogButtonBox *m_buttons;
 };
 
 } // namespace faintline

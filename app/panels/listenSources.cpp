@@ -2,7 +2,6 @@
 
 #include "app/base/filePath.h"
 #include "app/base/tr.h"
-#include "app/panels/sampleTypeBox.h"
 #include "base/Error.h"
 #include "live/sources/IqSource.h"
 #include "live/sources/PipeSource.h"
@@ -10,6 +9,9 @@
 #include "live/sources/SoundSource.h"
 #include "live/sources/UdpSource.h"
 #include "live/sources/soundDevices.h"
+#include "signal/formats/SampleType.h"
+#include "signal/openFields.h"
+#include "widgets/forms/FieldForm.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -24,6 +26,7 @@
 #include <QToolButton>
 #include <QUrl>
 
+#include <algorithm>
 #include <optional>
 
 namespace faintline {
@@ -51,40 +54,31 @@ namespace {
     }
 
     /// Form for the format of samples without a header.
-    struct RawFormat {
-        QComboBox *type = sampleTypeBox();
-        QDoubleSpinBox *rate = hertzBox(48000.0, 1e-6, 1e12);
-        QSpinBox *channels = new QSpinBox;
+    class RawForm final : public FieldForm<OpenOptions>
+    {
+    public:
+        RawForm() : FieldForm(tr("Samples"), ofStreams(), {false, "ri16_le", 48000.0}) {}
 
-        void addTo(QFormLayout &form)
-        {
-            type->setCurrentText(QStringLiteral("ri16_le"));
-            channels->setRange(1, 1024);
-            form.addRow(tr("&Type"), type);
-            form.addRow(tr("Sample &rate"), rate);
-            form.addRow(tr("&Channels"), channels);
-        }
-        void setEnabled(bool isEnabled)
-        {
-            for (QWidget *widget : std::initializer_list<QWidget *>{type, rate, channels})
-                widget->setEnabled(isEnabled);
-        }
+        /// Throws Error if a value was refused.
         StreamFormat format() const
         {
-            return {parseSampleType(type->currentText().trimmed().toStdString(), tr("Type").toStdString()),
-                    rate->value(),
-                    channels->value(),
-                    0.0,
-                    {}};
+            if (isRefused())
+                throw Error(tr("Samples").toStdString(), tr("correct the marked value").toStdString());
+            return {parseSampleType(value().rawType, "type"), value().rawRateHz, value().rawChannels, 0.0, {}};
         }
-        /// Empty while the type is incomplete.
-        std::optional<double> bytesPerSecond() const
+        double bytesPerSecond() const
         {
-            try {
-                return double(format().frameBytes()) * format().sampleRateHz;
-            } catch (const Error &) {
-                return {};
-            }
+            const Index bytes = parseSampleType(value().rawType, "type").sampleBytes();
+            return double(bytes * value().rawChannels) * value().rawRateHz;
+        }
+
+    private:
+        static std::vector<Field<OpenOptions>> ofStreams()
+        {
+            std::vector<Field<OpenOptions>> fields = openFields();
+            std::erase_if(fields,
+                          [](const auto &field) { return field.name == "rawHeaderBytes" || field.name == "iq"; });
+            return fields;
         }
     };
 
@@ -106,14 +100,14 @@ namespace {
             m_path->setPlaceholderText(tr("FIFO made with mkfifo, or a file"));
             m_path->setObjectName(QStringLiteral("pipePath"));
             m_header->setChecked(true);
-            m_raw.setEnabled(false);
-            QObject::connect(m_header, &QCheckBox::toggled, this, [this](bool has) { m_raw.setEnabled(!has); });
+            m_raw->setEnabled(false);
+            QObject::connect(m_header, &QCheckBox::toggled, m_raw, &QWidget::setDisabled);
             auto *form = new QFormLayout(this);
             auto *label = new QLabel(tr("&Path"));
             label->setBuddy(m_path);
             form->addRow(label, row);
             form->addRow(QString(), m_header);
-            m_raw.addTo(*form);
+            form->addRow(m_raw);
             form->addRow(QString(), m_iq);
         }
 
@@ -123,7 +117,7 @@ namespace {
                 throw Error(tr("Path").toStdString(), tr("is empty; give a FIFO or a file").toStdString());
             std::optional<StreamFormat> raw;
             if (!m_header->isChecked())
-                raw = m_raw.format();
+                raw = m_raw->format();
             return withIq(
                 [path = pathBytes(m_path->text().trimmed()), raw](const std::stop_token &stop)
                     -> std::unique_ptr<SampleSource> { return std::make_unique<PipeSource>(path, raw, stop); },
@@ -132,13 +126,13 @@ namespace {
 
         std::optional<double> bytesPerSecond() const override
         {
-            return m_header->isChecked() ? std::nullopt : m_raw.bytesPerSecond();
+            return m_header->isChecked() ? std::nullopt : std::optional(m_raw->bytesPerSecond());
         }
 
     private:
         QLineEdit *m_path = new QLineEdit;
         QCheckBox *m_header = new QCheckBox(tr("Begins with a WAV header"));
-        RawFormat m_raw;
+        RawForm *m_raw = new RawForm;
         QCheckBox *m_iq = new QCheckBox(tr("Take channels in pairs as I and Q"));
     };
 
@@ -154,7 +148,7 @@ namespace {
             auto *form = new QFormLayout(this);
             form->addRow(tr("&Port"), m_address);
             form->addRow(tr("Sequence &number"), m_sequence);
-            m_raw.addTo(*form);
+            form->addRow(m_raw);
             form->addRow(QString(), m_iq);
         }
 
@@ -164,19 +158,19 @@ namespace {
                 throw Error(tr("Port").toStdString(), tr("is empty; give PORT or ADDRESS:PORT").toStdString());
             const auto sequence = parseSequenceNumbers(m_sequence->currentData().toString().toStdString());
             return withIq(
-                [address = m_address->text().trimmed().toStdString(), raw = m_raw.format(),
+                [address = m_address->text().trimmed().toStdString(), raw = m_raw->format(),
                  sequence](const std::stop_token &) -> std::unique_ptr<SampleSource> {
                     return std::make_unique<UdpSource>(address, raw, sequence);
                 },
                 m_iq->isChecked());
         }
 
-        std::optional<double> bytesPerSecond() const override { return m_raw.bytesPerSecond(); }
+        std::optional<double> bytesPerSecond() const override { return m_raw->bytesPerSecond(); }
 
     private:
         QLineEdit *m_address = new QLineEdit;
         QComboBox *m_sequence = new QComboBox;
-        RawFormat m_raw;
+        RawForm *m_raw = new RawForm;
         QCheckBox *m_iq = new QCheckBox(tr("Take channels in pairs as I and Q"));
     };
 

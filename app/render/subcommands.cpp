@@ -1,5 +1,6 @@
 #include "app/render/subcommands.h"
 
+#include "app/cli/addOpening.h"
 #include "app/cli/inRange.h"
 #include "app/views/WindowViews.h"
 #include "base/Error.h"
@@ -38,15 +39,6 @@ QSize parseSize(const std::string &text)
         || std::max(width, height) > largest)
         throw Error("--size " + text, "must be WIDTHxHEIGHT in pixels, each 100 … 16384, such as 1600x1000");
     return {width, height};
-}
-
-void addOpening(CLI::App &command, OpenOptions &options)
-{
-    command.add_flag("--iq", options.iq, "Treat two channels as I and Q");
-    command.add_option("--raw-type", options.rawType, "Type of raw samples: ci16_le, cf32, cu8 …");
-    command.add_option("--raw-rate", options.rawRateHz, "Sample rate of raw samples, Hz")->check(isRawRate());
-    command.add_option("--raw-channels", options.rawChannels, "Channels of raw samples")->check(isRawChannels());
-    command.add_option("--raw-header", options.rawHeaderBytes, "Bytes before the first raw sample");
 }
 
 CLI::App *addRender(CLI::App &program, RenderOptions &options, std::string &size)

@@ -12,9 +12,6 @@ namespace faintline {
 
 // Options of the program faintline and of its subcommands; each function returns the subcommand that it adds.
 
-/// How the files of samples are read.
-void addOpening(CLI::App &command, OpenOptions &options);
-
 /// `size`: as `parseSize` takes it.
 CLI::App *addRender(CLI::App &program, RenderOptions &options, std::string &size);
 CLI::App *addReport(CLI::App &program, RenderOptions &options);

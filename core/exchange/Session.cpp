@@ -9,6 +9,7 @@
 #include "scene/truthBeside.h"
 #include "signal/Timeline.h"
 #include "signal/formats/SigmfRecording.h"
+#include "signal/openFields.h"
 
 #include <filesystem>
 #include <functional>
@@ -55,18 +56,10 @@ namespace {
             json = {{"name", textFromFileName(fs::path(source.path).filename().string())},
                     {"scenario", source.pings ? toJson(*source.pings) : toJson(*source.scene)}};
         } else {
-            const OpenOptions &options = source.options;
             const fs::path path = fs::absolute(source.path).lexically_normal();
             json = {{"path", textFromFileName(path.lexically_relative(folder.lexically_normal()).string())},
                     {"sha256", hash}};
-            if (options.iq)
-                json["iq"] = true;
-            if (!options.rawType.empty()) {
-                json["rawType"] = options.rawType;
-                json["rawRateHz"] = options.rawRateHz;
-                json["rawChannels"] = options.rawChannels;
-                json["rawHeaderBytes"] = options.rawHeaderBytes;
-            }
+            json.update(toJson(source.options));
         }
         if (!source.injections.empty())
             json["injected"] = toJson(source.injections);
@@ -180,21 +173,14 @@ Session readSession(const std::string &path)
 
 Source sourceFromJson(const Json &recording, const std::string &folder)
 {
-    checkKeys(recording, "recording",
-              {"name", "scenario", "path", "sha256", "iq", "rawType", "rawRateHz", "rawChannels", "rawHeaderBytes",
-               "injected"});
     Source source;
+    source.options = openOptionsFromJson(recording, "recording", {"name", "scenario", "path", "sha256", "injected"});
     if (recording.contains("scenario")) {
         const std::string name = recording.value("name", std::string("scenario"));
         source = sourceOfScene(recording["scenario"], fileNameFromText(name));
     } else {
         const std::string path = fileNameFromText(recording.at("path").get<std::string>());
         source.path = (fs::path(folder) / path).lexically_normal().string();
-        source.options.iq = recording.value("iq", false);
-        source.options.rawType = recording.value("rawType", std::string());
-        source.options.rawRateHz = recording.value("rawRateHz", 0.0);
-        source.options.rawChannels = wholeNumber(recording, "recording", "rawChannels", 1);
-        source.options.rawHeaderBytes = wholeNumber(recording, "recording", "rawHeaderBytes", Index(0));
     }
     if (recording.contains("injected"))
         for (const Json &one : recording["injected"])

@@ -7,8 +7,9 @@
 #include "signal/formats/writeRecording.h"
 #include "support/errors.h"
 
-#include <QComboBox>
-#include <QDoubleSpinBox>
+#include <QDialogButtonBox>
+#include <QLineEdit>
+#include <QPushButton>
 
 using namespace faintline;
 
@@ -94,13 +95,15 @@ private slots:
         OpenOptionsDialog receiver(file("gqrx_20260123_235959_100000000_2000000_fc.raw", "0123456789abcdef"));
         QCOMPARE(receiver.options().rawType, std::string("cf32_le"));
         QCOMPARE(receiver.options().rawRateHz, 2e6);
-        dialog.findChild<QDoubleSpinBox *>()->setValue(8.0);
-        OpenOptions options = dialog.options();
-        const OpenedSource opened = openSource(sourceAt(path, options));
+        auto *rate = dialog.findChild<QLineEdit *>();
+        rate->clear();
+        QTest::keyClicks(rate, "8\r");
+        const OpenedSource opened = openSource(sourceAt(path, dialog.options()));
         QVERIFY(opened.recording->info().isComplex);
         QCOMPARE(opened.recording->info().durationSeconds(), 1.0);
-        dialog.findChild<QComboBox *>()->setCurrentText("moon"); // refused in words, not by a crash
-        QCOMPARE(dialog.options().rawType, std::string("moon"));
+        rate->clear();
+        QTest::keyClicks(rate, "moon\r");
+        QVERIFY(!dialog.findChild<QDialogButtonBox *>()->button(QDialogButtonBox::Open)->isEnabled());
     }
 };
 

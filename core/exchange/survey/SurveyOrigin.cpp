@@ -1,10 +1,9 @@
 #include "exchange/survey/SurveyOrigin.h"
 
 #include "base/Error.h"
-#include "base/json.h"
-#include "base/wholeNumber.h"
 #include "evaluate/comparison/settingDifferences.h"
 #include "plan/calibrationVersion.h"
+#include "signal/openFields.h"
 
 namespace faintline {
 
@@ -30,32 +29,13 @@ namespace {
 
 SurveyOrigin originOf(const SurveySettings &settings, const std::string &shard)
 {
-    const OpenOptions &open = settings.open;
-    Json reading = Json::object();
-    if (open.iq)
-        reading["iq"] = true;
-    if (!open.rawType.empty())
-        reading = {{"iq", open.iq},
-                   {"rawType", open.rawType},
-                   {"rawRateHz", open.rawRateHz},
-                   {"rawChannels", open.rawChannels},
-                   {"rawHeaderBytes", open.rawHeaderBytes}};
-    return {settingsToJson(settings.analysis), reading.dump(), FAINTLINE_VERSION, std::to_string(calibrationVersion),
-            shard};
+    return {settingsToJson(settings.analysis), toJson(settings.open).dump(), FAINTLINE_VERSION,
+            std::to_string(calibrationVersion), shard};
 }
 
 SurveySettings settingsOf(const SurveyOrigin &origin, const std::string &where)
 {
-    const Json reading = parseJson(origin.reading, where);
-    return readingJson(where, [&] {
-        OpenOptions open;
-        open.iq = reading.value("iq", false);
-        open.rawType = reading.value("rawType", std::string());
-        open.rawRateHz = reading.value("rawRateHz", 0.0);
-        open.rawChannels = wholeNumber(reading, where, "rawChannels", 1);
-        open.rawHeaderBytes = wholeNumber(reading, where, "rawHeaderBytes", Index(0));
-        return SurveySettings{settingsFromJson(origin.settings, where), open};
-    });
+    return {settingsFromJson(origin.settings, where), openOptionsFromJson(parseJson(origin.reading, where), where)};
 }
 
 void checkOrigin(const SurveyOrigin &there, const SurveyOrigin &wanted, const std::string &path)

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "base/json.h"
+#include "signal/fileFormats.h"
+
+namespace faintline {
+
+/// How to read a file, for forms and JSON. A type is one of those that a list can offer, with its byte order.
+const std::vector<Field<OpenOptions>> &openFields();
+
+/// Only what differs from a file that describes itself.
+Json toJson(const OpenOptions &options);
+
+/// Reads the keys of `openFields`. Throws Error naming `where.key` for one that is in neither the table nor `otherKeys`.
+OpenOptions openOptionsFromJson(Json json, const std::string &where,
+                                std::initializer_list<const char *> otherKeys = {});
+
+} // namespace faintline
