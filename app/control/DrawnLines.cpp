@@ -7,7 +7,6 @@
 #include <QAction>
 #include <QItemSelectionModel>
 #include <QMenu>
-#include <QTableView>
 
 #include <algorithm>
 

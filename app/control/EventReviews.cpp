@@ -13,7 +13,6 @@
 #include <QInputDialog>
 #include <QItemSelectionModel>
 #include <QMenu>
-#include <QTableView>
 
 #include <algorithm>
 

@@ -8,6 +8,7 @@
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
+#include "widgets/table/ColumnTable.h"
 #include "widgets/waterfall/ColourBar.h"
 #include "widgets/waterfall/WaterfallView.h"
 
@@ -17,7 +18,6 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QSplitter>
-#include <QTableWidget>
 #include <QToolButton>
 #include <QVBoxLayout>
 
@@ -29,31 +29,22 @@ namespace {
 
     using In = ComparedEvent::In;
 
-    enum Column { InColumn, Onset, Place, DetectedA, DetectedB, StatisticA, StatisticB, ColumnCount };
-
-    /// A cell that displays one value and is sorted by another; cells without a number come last.
-    class Cell : public QTableWidgetItem
-    {
-    public:
-        Cell(const QString &text, double value) : QTableWidgetItem(text), m_value(value)
-        {
-            setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
-        }
-
-        bool operator<(const QTableWidgetItem &other) const override
-        {
-            return m_value < static_cast<const Cell &>(other).m_value;
-        }
-
-    private:
-        double m_value;
-    };
-
-    constexpr double sortsLast = 1e300;
-
     QString nameOf(In in)
     {
         return in == In::A ? QStringLiteral("A") : in == In::B ? QStringLiteral("B") : QObject::tr("both");
+    }
+
+    /// Before there are analyses, the headings alone.
+    std::vector<TableHeading> comparedHeadings(const QString &place, const QString &unitA = {},
+                                               const QString &unitB = {})
+    {
+        return {{ComparePanel::tr("In"), {}, Qt::AlignLeft},
+                {ComparePanel::tr("Onset")},
+                {place},
+                {ComparePanel::tr("A at"), ComparePanel::tr("Time at which A detected it")},
+                {ComparePanel::tr("B at"), ComparePanel::tr("Time at which B detected it")},
+                {ComparePanel::tr("D of A"), ComparePanel::tr("Largest statistic in A, %1").arg(unitA)},
+                {ComparePanel::tr("D of B"), ComparePanel::tr("Largest statistic in B, %1").arg(unitB)}};
     }
 
 } // namespace
@@ -64,7 +55,7 @@ ComparePanel::ComparePanel(Document &document, AnalysisController &controller, C
       m_differences(plainLabel()), m_keep(new QPushButton(tr("Keep as A"))), m_swap(new QPushButton(tr("Swap"))),
       m_goTo(new QPushButton(tr("Go to A"))),
       m_compute(new QPushButton(tr("Compute A here"))), m_filters{new QToolButton, new QToolButton, new QToolButton},
-      m_table(new QTableWidget(0, ColumnCount))
+      m_table(new ColumnTable(tr("Events of A and B")))
 {
     buildTable();
     auto *splitter = new QSplitter(Qt::Horizontal);
@@ -157,33 +148,14 @@ QWidget *ComparePanel::buildButtons()
 
 void ComparePanel::buildTable()
 {
-    nameColumns(tr("Frequency"));
-    m_table->verticalHeader()->hide();
-    m_table->verticalHeader()->setDefaultSectionSize(22);
-    m_table->horizontalHeader()->setHighlightSections(false);
+    m_table->show(comparedHeadings(tr("Frequency")));
     m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
     m_table->horizontalHeader()->setStretchLastSection(true);
-    m_table->setSelectionBehavior(QAbstractItemView::SelectRows);
     m_table->setSelectionMode(QAbstractItemView::SingleSelection);
-    m_table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    m_table->setShowGrid(false);
-    m_table->setFrameShape(QFrame::NoFrame);
-    m_table->setAccessibleName(tr("Events of A and B"));
     m_table->setSortingEnabled(true);
-    m_table->sortByColumn(Onset, Qt::AscendingOrder);
-    connect(m_table, &QTableWidget::cellClicked, this, [this](int row) { goTo(row); });
-    connect(m_table, &QTableWidget::cellActivated, this, [this](int row) { goTo(row); });
-}
-
-void ComparePanel::nameColumns(const QString &place)
-{
-    m_table->setHorizontalHeaderLabels(
-        {tr("In"), tr("Onset"), place, tr("A at"), tr("B at"), tr("D of A"), tr("D of B")});
-}
-
-QString ComparePanel::differences() const
-{
-    return m_differences->text();
+    m_table->sortByColumn(1, Qt::AscendingOrder); // onset
+    connect(m_table, &ColumnTable::clicked, this, &ComparePanel::goTo);
+    connect(m_table, &ColumnTable::activated, this, &ComparePanel::goTo);
 }
 
 void ComparePanel::showEvent(QShowEvent *event)
@@ -267,53 +239,40 @@ void ComparePanel::showEvents()
     for (const In in : {In::A, In::B, In::Both})
         m_filters[int(in)]->setText(in == In::Both ? tr("both %1").arg(comparison.count(in))
                                                    : tr("%1 %2").arg(nameOf(in)).arg(comparison.count(in)));
-    m_table->setSortingEnabled(false);
-    m_table->setRowCount(0);
-    if (result) {
-        const Axis &place = result->b->grid().axes.back();
-        const QString unitA = statisticUnit(result->a->settings), unitB = statisticUnit(result->b->settings);
-        const QString placeName = capitalised(labelText(place.name, mostUnitLetters));
-        nameColumns(placeName);
-        m_table->horizontalHeaderItem(DetectedA)->setToolTip(tr("Time at which A detected it"));
-        m_table->horizontalHeaderItem(DetectedB)->setToolTip(tr("Time at which B detected it"));
-        m_table->horizontalHeaderItem(StatisticA)->setToolTip(tr("Largest statistic in A, %1").arg(unitA));
-        m_table->horizontalHeaderItem(StatisticB)->setToolTip(tr("Largest statistic in B, %1").arg(unitB));
-        for (std::size_t i = 0; i < comparison.events.size(); ++i) {
-            const ComparedEvent &compared = comparison.events[i];
-            if (!m_filters[int(compared.in())]->isChecked())
-                continue;
-            const Event &event = compared.event();
-            const double step = result->b->time().step;
-            const int row = m_table->rowCount();
-            m_table->setRowCount(row + 1);
-            const auto set = [&](int column, const QString &text, double value) {
-                m_table->setItem(row, column, new Cell(text, value));
-            };
-            const auto time = [&](const std::optional<Event> &side) {
-                return side ? secondsText(side->detectSeconds, step) : QString();
-            };
-            const auto nats = [&](const std::optional<Event> &side) {
-                return side ? numberText(side->statistic, 1) : QString();
-            };
-            set(InColumn, nameOf(compared.in()), double(compared.in()));
-            m_table->item(row, InColumn)->setData(Qt::UserRole, int(i));
-            m_table->item(row, InColumn)->setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
-            set(Onset, secondsText(event.onsetSeconds, step), event.onsetSeconds);
-            set(Place,
-                place.unit == "Hz"
-                    ? hertzText(event.position.back(), place.step)
-                    : numberText(event.position.back(), 1) + QLatin1Char(' ') + labelText(place.unit, mostUnitLetters),
-                event.position.back());
-            set(DetectedA, time(compared.a), compared.a ? compared.a->detectSeconds : sortsLast);
-            set(DetectedB, time(compared.b), compared.b ? compared.b->detectSeconds : sortsLast);
-            set(StatisticA, nats(compared.a), compared.a ? compared.a->statistic : sortsLast);
-            set(StatisticB, nats(compared.b), compared.b ? compared.b->statistic : sortsLast);
-        }
+    m_listed.clear();
+    m_table->clear();
+    if (!result)
+        return;
+    const Axis &place = result->b->grid().axes.back();
+    const double step = result->b->time().step;
+    const auto time = [step](const std::optional<Event> &side) {
+        return side ? TableCell{secondsText(side->detectSeconds, step), side->detectSeconds} : TableCell{};
+    };
+    const auto nats = [](const std::optional<Event> &side) {
+        return side ? TableCell{numberText(side->statistic, 1), side->statistic} : TableCell{};
+    };
+    std::vector<std::vector<TableCell>> rows;
+    for (const ComparedEvent &compared : comparison.events) {
+        if (!m_filters[int(compared.in())]->isChecked())
+            continue;
+        const Event &event = compared.event();
+        const double at = event.position.back();
+        rows.push_back(
+            {{nameOf(compared.in()), double(compared.in())},
+             {secondsText(event.onsetSeconds, step), event.onsetSeconds},
+             {place.unit == "Hz" ? hertzText(at, place.step)
+                                 : numberText(at, 1) + QLatin1Char(' ') + labelText(place.unit, mostUnitLetters),
+              at},
+             time(compared.a),
+             time(compared.b),
+             nats(compared.a),
+             nats(compared.b)});
+        m_listed.push_back(&compared);
     }
-    m_table->setSortingEnabled(true);
-
-    if (result)
-        m_picture->setTracks(tracksAlone(*result), result->b->time());
+    m_table->show(comparedHeadings(capitalised(labelText(place.name, mostUnitLetters)),
+                                   statisticUnit(result->a->settings), statisticUnit(result->b->settings)),
+                  std::move(rows));
+    m_picture->setTracks(tracksAlone(*result), result->b->time());
 }
 
 /// What one of the two has missed: that is what one looks for. A's only where both lie on the same axes.
@@ -369,13 +328,12 @@ void ComparePanel::showWords()
                                            : tr("From A to B: %1.").arg(words.join(QStringLiteral("; "))));
 }
 
-void ComparePanel::goTo(int row)
+void ComparePanel::goTo(const QModelIndex &index)
 {
     const auto &result = m_comparer.result();
-    const QTableWidgetItem *item = m_table->item(row, InColumn);
-    if (!result || !item)
+    if (!result || !index.isValid())
         return;
-    const ComparedEvent &compared = result->comparison.events[std::size_t(item->data(Qt::UserRole).toInt())];
+    const ComparedEvent &compared = *m_listed[std::size_t(m_table->sourceRow(index))];
     if (compared.b)
         return emit eventActivated(compared.b->id);
     const Track *track = trackOfId(result->a->tracks, compared.a->id);

@@ -7,11 +7,11 @@
 
 class QLabel;
 class QPushButton;
-class QTableWidget;
 class QToolButton;
 
 namespace faintline {
 
+class ColumnTable;
 class WaterfallView;
 
 /// A against B: the difference of their statistics on the common viewport, the events found by both or by only one, the
@@ -24,8 +24,6 @@ public:
     ComparePanel(Document &document, AnalysisController &controller, Comparer &comparer, QWidget *parent = nullptr);
 
     WaterfallView *picture() const { return m_picture; }
-    QTableWidget *table() const { return m_table; }
-    QString differences() const; ///< of the settings
 
     QSize sizeHint() const override { return {900, 300}; }
 
@@ -48,13 +46,12 @@ private:
     QWidget *buildList();
     QWidget *buildButtons();
     void buildTable();
-    void nameColumns(const QString &place);
     void follow();
     void showPicture();
     void showEvents();
     void showWords();
     void updateButtons();
-    void goTo(int row);
+    void goTo(const QModelIndex &index);
     QString costText() const;
     std::vector<Track> tracksAlone(const Comparer::Result &result) const;
 
@@ -70,7 +67,8 @@ private:
     QPushButton *m_goTo;
     QPushButton *m_compute;
     QToolButton *m_filters[3]; ///< A, B, both
-    QTableWidget *m_table;
+    ColumnTable *m_table;
+    std::vector<const ComparedEvent *> m_listed; ///< of the result, in the table
 };
 
 } // namespace faintline

@@ -1,7 +1,6 @@
 #include "app/panels/DopplerPanel.h"
 
 #include "app/base/filePath.h"
-#include "app/base/readingTable.h"
 #include "app/base/writeAndReport.h"
 #include "app/control/thresholdWords.h"
 #include "app/document/Document.h"
@@ -12,6 +11,7 @@
 #include "widgets/base/quantities.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ChartPlot.h"
+#include "widgets/table/ColumnTable.h"
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -25,16 +25,14 @@
 #include <QSignalBlocker>
 #include <QSplitter>
 #include <QTableView>
-#include <QTableWidget>
 #include <QVBoxLayout>
 
+#include <cmath>
 #include <utility>
 
 namespace faintline {
 
 namespace {
-
-    constexpr int leftColumns = 1; ///< left-aligned columns of the table
 
     struct Medium {
         const char *name;
@@ -66,8 +64,9 @@ namespace {
 DopplerPanel::DopplerPanel(Document &document, const EventTable &events, Provenance &provenance, QWidget *parent)
     : Panel(parent), m_document(document), m_events(events), m_provenance(provenance), m_form(new QFormLayout),
       m_medium(new QComboBox), m_propagation(new QDoubleSpinBox), m_centre(new QDoubleSpinBox),
-      m_save(new QPushButton(tr("&Save fit…"))), m_sentence(panelSentence()), m_table(new QTableWidget),
-      m_notes(plainLabel()), m_frequencies(new ChartPlot), m_residuals(new ChartPlot),
+      m_save(new QPushButton(tr("&Save fit…"))), m_sentence(panelSentence()),
+      m_table(new ColumnTable(tr("The pass and its 90 % intervals"))), m_notes(plainLabel()),
+      m_frequencies(new ChartPlot), m_residuals(new ChartPlot),
       m_fit(
           this, &DopplerPanel::question,
           [](const auto &analysis, const auto &chosen, double centreHz, double propagation, const RunContext &) {
@@ -79,11 +78,8 @@ DopplerPanel::DopplerPanel(Document &document, const EventTable &events, Provena
     m_notes->setWordWrap(true);
     for (QLabel *label : {m_sentence, m_notes})
         label->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    makeReadingTable(*m_table, 20);
-    m_table->setColumnCount(4);
-    m_table->setHorizontalHeaderLabels({tr("Parameter"), tr("Estimate"), tr("90 % interval"), tr("Unit")});
+    m_table->setSmall(20);
     m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-    m_table->setAccessibleName(tr("The pass and its 90 % intervals"));
     m_table->setSizeAdjustPolicy(QAbstractScrollArea::AdjustToContents);
     m_table->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     m_frequencies->setEmptySentence(tr("The track and the fitted pass appear here."));
@@ -154,8 +150,8 @@ void DopplerPanel::connectInputs()
     });
     connect(&m_document, &Document::analysisChanged, this, &DopplerPanel::takeCentre);
     connect(&m_fit, &JobRunner::busyChanged, this, [this](bool isBusy) {
-        m_save->setEnabled(!isBusy && report()); // the result belongs to the selection
-        if (isBusy && !report())
+        m_save->setEnabled(!isBusy && m_fit.answer()); // the result belongs to the selection
+        if (isBusy && !m_fit.answer())
             m_sentence->setText(tr("Fitting …"));
     });
     m_fit.watch(*this, m_sentence);
@@ -204,25 +200,23 @@ void DopplerPanel::show()
     m_save->setEnabled(m_fit.answer());
     if (!m_fit.answer()) {
         m_notes->clear();
-        m_table->setRowCount(0);
+        m_table->clear();
         m_frequencies->setChart({});
         return m_residuals->setChart({});
     }
     const DopplerReport &report = *m_fit.answer();
     m_sentence->setText(sentenceOf(report));
-    std::vector<DopplerRow> rows = dopplerRows(report.fit);
-    m_table->setRowCount(int(rows.size()) + 2);
-    int row = 0;
-    for (const DopplerRow &one : rows)
-        fillRow(*m_table, row++,
-                {capitalised(QString::fromStdString(one.name)), text(valueText(one.value, one.bounds)),
-                 text(boundsText(one.bounds)), QString::fromStdString(one.unit)},
-                leftColumns);
-    fillRow(*m_table, row++,
-            {tr("Arrival of f₀"), text(valueText(report.fit.heardSeconds(), report.fit.closestSeconds)), {}, tr("s")},
-            leftColumns);
-    fillRow(*m_table, row, {tr("Slope at f₀"), powerText(report.fit.slopeHzPerSecond(), 4), {}, tr("Hz/s")},
-            leftColumns);
+    std::vector<std::vector<TableCell>> rows;
+    for (const DopplerRow &one : dopplerRows(report.fit))
+        rows.push_back({{capitalised(QString::fromStdString(one.name))},
+                        {text(valueText(one.value, one.bounds)), one.value},
+                        {text(boundsText(one.bounds)), one.bounds.low.value_or(std::nan(""))},
+                        {QString::fromStdString(one.unit)}});
+    const double heard = report.fit.heardSeconds(), slope = report.fit.slopeHzPerSecond();
+    rows.push_back({{tr("Arrival of f₀")}, {text(valueText(heard, report.fit.closestSeconds)), heard}, {}, {tr("s")}});
+    rows.push_back({{tr("Slope at f₀")}, {powerText(slope, 4), slope}, {}, {tr("Hz/s")}});
+    m_table->show({{tr("Parameter"), {}, Qt::AlignLeft}, {tr("Estimate")}, {tr("90 % interval")}, {tr("Unit")}},
+                  std::move(rows));
     m_table->updateGeometry();
     QStringList notes;
     for (const std::string &note : dopplerNotes(report))
@@ -245,11 +239,11 @@ void DopplerPanel::ask()
 
 void DopplerPanel::saveTo(const QString &path)
 {
-    if (!report())
+    if (!m_fit.answer())
         return;
     if (const auto analysis = m_document.lineAnalysis(); !analysis || analysis->calibration->isFirstEstimate)
         return emit failed(firstEstimateError());
-    m_provenance.with([this, path, report = *report()](const std::string &provenance) {
+    m_provenance.with([this, path, report = *m_fit.answer()](const std::string &provenance) {
         writeAndReport(*this, path, [&] {
             writeDoppler(report, pathBytes(path));
             Json json = parseJson(provenance, "provenance");

@@ -9,11 +9,11 @@ class QDoubleSpinBox;
 class QFormLayout;
 class QLabel;
 class QPushButton;
-class QTableWidget;
 
 namespace faintline {
 
 class ChartPlot;
+class ColumnTable;
 class Document;
 class EventTable;
 class Provenance;
@@ -30,11 +30,8 @@ class DopplerPanel : public Panel
 public:
     DopplerPanel(Document &document, const EventTable &events, Provenance &provenance, QWidget *parent = nullptr);
 
-    const DopplerReport *report() const { return m_fit.answer(); } ///< as shown; null: none
-    QTableWidget *table() const { return m_table; }
     ChartPlot &frequencies() { return *m_frequencies; }
     ChartPlot &residuals() { return *m_residuals; }
-    QDoubleSpinBox *propagation() const { return m_propagation; }
     QDoubleSpinBox *centre() const { return m_centre; }
 
     /// The extension selects the format: .json, or .csv with the points.
@@ -65,7 +62,7 @@ private:
     bool m_isCentreKnown = false; ///< the recording's value has been entered
     QPushButton *m_save;
     QLabel *m_sentence;
-    QTableWidget *m_table;
+    ColumnTable *m_table;
     QLabel *m_notes;
     ChartPlot *m_frequencies;
     ChartPlot *m_residuals;

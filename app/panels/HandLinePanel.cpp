@@ -5,6 +5,7 @@
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 #include "widgets/plot/StripPlot.h"
+#include "widgets/table/ColumnTable.h"
 #include "widgets/waterfall/HandLine.h"
 
 #include <QEvent>
@@ -14,7 +15,6 @@
 #include <QLabel>
 #include <QPainter>
 #include <QPushButton>
-#include <QTableWidget>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -62,13 +62,24 @@ namespace {
                                     : HandLinePanel::tr("none");
     }
 
+    std::vector<TableHeading> pathHeadings()
+    {
+        return {{HandLinePanel::tr("Path"), {}, Qt::AlignLeft},
+                {HandLinePanel::tr("Frames")},
+                {HandLinePanel::tr("Σ λ (nat)"),
+                 HandLinePanel::tr("Evidence: the sum of the log-likelihood ratios along the path")},
+                {HandLinePanel::tr("SNR"),
+                 HandLinePanel::tr("Mean power along the path over the noise power, less one, in one frame")}};
+    }
+
 } // namespace
 
 HandLinePanel::HandLinePanel(Document &document, const Pictures &pictures, QWidget *parent)
     : QWidget(parent), m_document(document), m_pictures(pictures), m_line(new HandLine(pictures.input)),
       m_draw(new QPushButton(tr("Dra&w"))), m_cover(new QPushButton(tr("Cover the &statistic"))),
       m_add(new QPushButton(tr("Point at c&ursor"))), m_remove(new QPushButton(tr("Remove las&t"))),
-      m_clear(new QPushButton(tr("&Clear"))), m_sentence(panelSentence()), m_table(new QTableWidget(3, 3)),
+      m_clear(new QPushButton(tr("&Clear"))), m_sentence(panelSentence()),
+      m_table(new ColumnTable(tr("Evidence along your line and along the detector's path"))),
       m_comparison(this, &HandLinePanel::question, compare, &HandLinePanel::show)
 {
     m_draw->setCheckable(true);
@@ -98,19 +109,10 @@ HandLinePanel::HandLinePanel(Document &document, const Pictures &pictures, QWidg
 
 void HandLinePanel::buildTable()
 {
-    m_table->setHorizontalHeaderLabels({tr("Frames"), tr("Σ λ (nat)"), tr("SNR")});
-    m_table->horizontalHeaderItem(1)->setToolTip(tr("Evidence: the sum of the log-likelihood ratios along the path"));
-    m_table->horizontalHeaderItem(2)->setToolTip(
-        tr("Mean power along the path over the noise power, less one, in one frame"));
-    m_table->setVerticalHeaderLabels(
-        {tr("Your line, all frames"), tr("Your line, shared frames"), tr("Detector, shared frames")});
+    m_table->show(pathHeadings());
     m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
-    m_table->verticalHeader()->setDefaultSectionSize(22);
-    m_table->setEditTriggers(QAbstractItemView::NoEditTriggers);
     m_table->setFocusPolicy(Qt::ClickFocus);
-    m_table->setFrameShape(QFrame::NoFrame);
     m_table->setFixedHeight(m_table->horizontalHeader()->sizeHint().height() + 3 * 22 + 2);
-    m_table->setAccessibleName(tr("Evidence along your line and along the detector's path"));
 }
 
 void HandLinePanel::connectInputs()
@@ -190,18 +192,21 @@ void HandLinePanel::show()
     showSentence();
     const Comparison *both = comparison();
     if (!both)
-        return m_table->clearContents();
-    const PathEvidence *rows[] = {&both->own, &both->ownThere, &both->detector};
-    for (int row = 0; row < 3; ++row) {
-        const bool isShown = row == 0 || (both->track && !isCovered());
-        const QString texts[] = {QString::number(rows[row]->frames), numberText(rows[row]->logLikelihoodRatio, 1),
-                                 snrText(*rows[row])};
-        for (int column = 0; column < 3; ++column) {
-            auto *item = new QTableWidgetItem(isShown ? texts[column] : QString());
-            item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
-            m_table->setItem(row, column, item);
-        }
-    }
+        return m_table->clear();
+    std::vector<std::vector<TableCell>> rows;
+    const auto add = [&](const QString &name, const PathEvidence &one, bool isShown) {
+        rows.push_back({{name}, {}, {}, {}});
+        if (isShown)
+            rows.back() = {{name},
+                           {QString::number(one.frames), double(one.frames)},
+                           {numberText(one.logLikelihoodRatio, 1), one.logLikelihoodRatio},
+                           {snrText(one), one.meanPower}};
+    };
+    const bool areShared = both->track && !isCovered();
+    add(tr("Your line, all frames"), both->own, true);
+    add(tr("Your line, shared frames"), both->ownThere, areShared);
+    add(tr("Detector, shared frames"), both->detector, areShared);
+    m_table->show(pathHeadings(), std::move(rows));
 }
 
 void HandLinePanel::showSentence()

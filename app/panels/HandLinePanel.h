@@ -8,10 +8,10 @@
 
 class QLabel;
 class QPushButton;
-class QTableWidget;
 
 namespace faintline {
 
+class ColumnTable;
 class HandLine;
 class WaterfallView;
 
@@ -44,8 +44,6 @@ public:
     HandLinePanel(Document &document, const Pictures &pictures, QWidget *parent = nullptr);
 
     HandLine &line() { return *m_line; }
-    bool isCovered() const { return m_covers[0] != nullptr; }
-    const Comparison *comparison() const { return m_comparison.answer(); } ///< null: none
 
     /// Throws Cancelled.
     static Comparison compare(const std::shared_ptr<const Analysis> &analysis, const std::vector<PolylinePoint> &line,
@@ -60,6 +58,8 @@ protected:
     void hideEvent(QHideEvent *event) override;
 
 private:
+    bool isCovered() const { return m_covers[0] != nullptr; }
+    const Comparison *comparison() const { return m_comparison.answer(); } ///< null: none
     using Asking = Inquiry<Comparison, std::shared_ptr<const Analysis>, std::vector<PolylinePoint>>;
 
     Asking::Question question() const;
@@ -77,7 +77,7 @@ private:
     QPushButton *m_remove;
     QPushButton *m_clear;
     QLabel *m_sentence;
-    QTableWidget *m_table;
+    ColumnTable *m_table;
     QWidget *m_covers[2]{nullptr, nullptr}; ///< over the statistic and its chart
     Asking m_comparison;
 };

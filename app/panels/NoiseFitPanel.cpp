@@ -1,16 +1,15 @@
 #include "app/panels/NoiseFitPanel.h"
 
-#include "app/base/readingTable.h"
 #include "app/document/Document.h"
 #include "plan/Calibration.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 #include "widgets/plot/ChartPlot.h"
+#include "widgets/table/ColumnTable.h"
 
 #include <QHeaderView>
 #include <QLabel>
 #include <QSplitter>
-#include <QTableWidget>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -81,11 +80,24 @@ namespace {
         return growsWithoutEnd(pfa) ? NoiseFitPanel::tr("grows") : QStringLiteral("× ") + powerText(pfa.ratio(), 3);
     }
 
+    std::vector<TableHeading> bandHeadings()
+    {
+        return {{NoiseFitPanel::tr("Band"), {}, Qt::AlignLeft},
+                {NoiseFitPanel::tr("Mean")},
+                {NoiseFitPanel::tr("KS distance"),
+                 NoiseFitPanel::tr("Kolmogorov–Smirnov distance to e^(-y), and its 95 % limit for the number of "
+                                   "independent values")},
+                {NoiseFitPanel::tr("Pfa"),
+                 NoiseFitPanel::tr("Ratio of the false-alarm probabilities per cell of this band's noise and of noise "
+                                   "of the law itself, at the current threshold, or at 10⁻⁴ if that probability is too "
+                                   "small to be estimated")}};
+    }
+
 } // namespace
 
 NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_sentence(panelSentence()), m_plot(new ChartPlot),
-      m_table(new QTableWidget(0, 4)),
+      m_table(new ColumnTable(tr("Fit of the noise, band by band"))),
       m_fit(
           this,
           [this] {
@@ -96,16 +108,10 @@ NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
 {
     m_sentence->setContentsMargins(8, 6, 8, 4);
     m_plot->setEmptySentence(tr("Quantiles of the noise appear here."));
-    m_table->setHorizontalHeaderLabels({tr("Band"), tr("Mean"), tr("KS distance"), tr("Pfa")});
-    m_table->horizontalHeaderItem(2)->setToolTip(
-        tr("Kolmogorov–Smirnov distance to e^(-y), and its 95 % limit for the number of independent values"));
-    m_table->horizontalHeaderItem(3)->setToolTip(
-        tr("Ratio of the false-alarm probabilities per cell of this band's noise and of noise of the law itself, at "
-           "the current threshold, or at 10⁻⁴ if that probability is too small to be estimated"));
-    makeReadingTable(*m_table, 22);
+    m_table->show(bandHeadings());
+    m_table->setSmall();
     m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
     m_table->horizontalHeader()->setStretchLastSection(true);
-    m_table->setAccessibleName(tr("Fit of the noise, band by band"));
     auto *splitter = new QSplitter(Qt::Vertical);
     splitter->addWidget(m_plot);
     splitter->addWidget(m_table);
@@ -144,22 +150,25 @@ void NoiseFitPanel::show()
 {
     if (!m_fit.answer()) {
         m_plot->setChart({});
-        return m_table->setRowCount(0);
+        return m_table->clear();
     }
     const Fit &fit = *m_fit.answer();
     const Axis &axis = fit.analysis->grid().axes.back();
     m_plot->setChart(chartOf(fit.bands, axis));
-    m_table->setRowCount(int(fit.bands.size()));
-    for (int row = 0; row < m_table->rowCount(); ++row) {
-        const FittedBand &band = fit.bands[std::size_t(row)];
-        const QStringList texts{bandText(band, axis), numberText(band.law.mean(), 3),
-                                tr("%1 %2 %3")
-                                    .arg(numberText(band.law.distance(), 4),
-                                         band.fits() ? QStringLiteral("≤") : QStringLiteral(">"),
-                                         numberText(NoiseLaw::distanceLimit(band.independent), 4)),
-                                fit.pfa.empty() ? QStringLiteral("–") : pfaText(fit.pfa[std::size_t(row)])};
-        fillRow(*m_table, row, texts, 1);
+    std::vector<std::vector<TableCell>> rows;
+    for (std::size_t i = 0; i < fit.bands.size(); ++i) {
+        const FittedBand &band = fit.bands[i];
+        const double distance = band.law.distance();
+        rows.push_back(
+            {{bandText(band, axis), band.low},
+             {numberText(band.law.mean(), 3), band.law.mean()},
+             {tr("%1 %2 %3")
+                  .arg(numberText(distance, 4), band.fits() ? QStringLiteral("≤") : QStringLiteral(">"),
+                       numberText(NoiseLaw::distanceLimit(band.independent), 4)),
+              distance},
+             fit.pfa.empty() ? TableCell{QStringLiteral("–")} : TableCell{pfaText(fit.pfa[i]), fit.pfa[i].ratio()}});
     }
+    m_table->show(bandHeadings(), std::move(rows));
     say(fit);
 }
 

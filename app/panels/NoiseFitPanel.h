@@ -9,12 +9,12 @@
 #include <vector>
 
 class QLabel;
-class QTableWidget;
 
 namespace faintline {
 
 struct Analysis;
 class ChartPlot;
+class ColumnTable;
 class Document;
 
 /// Tests whether the selection's normalised noise follows the law on which thresholds are based, and the effect if it
@@ -28,7 +28,6 @@ public:
     explicit NoiseFitPanel(const Document &document, QWidget *parent = nullptr);
 
     ChartPlot &plot() { return *m_plot; }
-    QTableWidget *table() const { return m_table; }
 
     QSize sizeHint() const override { return {360, 420}; }
 
@@ -46,7 +45,7 @@ private:
     const Document &m_document;
     QLabel *m_sentence;
     ChartPlot *m_plot;
-    QTableWidget *m_table;
+    ColumnTable *m_table;
     Inquiry<Fit, std::shared_ptr<const Analysis>> m_fit;
 };
 

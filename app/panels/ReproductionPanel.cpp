@@ -3,6 +3,7 @@
 #include "widgets/base/Theme.h"
 #include "widgets/base/quantities.h"
 #include "widgets/plot/ChartPlot.h"
+#include "widgets/table/ColumnTable.h"
 
 #include <QComboBox>
 #include <QEvent>
@@ -10,7 +11,6 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QSplitter>
-#include <QTableWidget>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -32,29 +32,33 @@ namespace {
         return cell.isInside() ? QObject::tr("inside") : QObject::tr("outside");
     }
 
+    std::vector<TableHeading> reproducedHeadings()
+    {
+        return {{ReproductionPanel::tr("Detector"), {}, Qt::AlignLeft},
+                {ReproductionPanel::tr("At"), {}, Qt::AlignLeft},
+                {ReproductionPanel::tr("Paper")},
+                {ReproductionPanel::tr("Reference")},
+                {ReproductionPanel::tr("Ours")},
+                {ReproductionPanel::tr("95 % interval")},
+                {ReproductionPanel::tr("Gap to paper")},
+                {ReproductionPanel::tr("Tolerance"), {}, Qt::AlignLeft}};
+    }
+
 } // namespace
 
 ReproductionPanel::ReproductionPanel(QWidget *parent)
     : QWidget(parent), m_title(new QLabel(tr("Choose a table or figure from the Reproduce menu."))),
-      m_notes(new QLabel), m_table(new QTableWidget(0, 8)), m_which(new QComboBox), m_plot(new ChartPlot)
+      m_notes(new QLabel), m_table(new ColumnTable(tr("Paper, ours, interval and gap"))), m_which(new QComboBox),
+      m_plot(new ChartPlot)
 {
     m_title->setFont(Theme::boldFont(13));
     m_title->setWordWrap(true);
     m_title->setContentsMargins(8, 5, 8, 3);
     m_notes->setWordWrap(true);
     m_notes->setContentsMargins(8, 3, 8, 5);
-    m_table->setHorizontalHeaderLabels({tr("Detector"), tr("At"), tr("Paper"), tr("Reference"), tr("Ours"),
-                                        tr("95 % interval"), tr("Gap to paper"), tr("Tolerance")});
-    m_table->verticalHeader()->hide();
-    m_table->verticalHeader()->setDefaultSectionSize(22);
-    m_table->horizontalHeader()->setHighlightSections(false);
+    m_table->show(reproducedHeadings());
     m_table->horizontalHeader()->setStretchLastSection(true);
-    m_table->setSelectionBehavior(QAbstractItemView::SelectRows);
-    m_table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    m_table->setShowGrid(false);
     m_table->setAlternatingRowColors(true);
-    m_table->setFrameShape(QFrame::NoFrame);
-    m_table->setAccessibleName(tr("Paper, ours, interval and gap"));
     m_plot->setEmptySentence(tr("The chart appears here."));
     m_which->hide();
     m_which->setAccessibleName(tr("Chart"));
@@ -113,32 +117,29 @@ void ReproductionPanel::fillTable()
     if (!m_reproduction)
         return;
     const Theme::Colours &colours = Theme::colours(*this);
-    m_table->setRowCount(int(m_reproduction->cells.size()));
-    for (int row = 0; row < m_table->rowCount(); ++row) {
-        const ReproducedCell &cell = m_reproduction->cells[std::size_t(row)];
+    const auto number = [](const std::optional<double> &value) {
+        return value ? TableCell{figure(*value), *value} : TableCell{QStringLiteral("–")};
+    };
+    std::vector<std::vector<TableCell>> rows;
+    for (const ReproducedCell &cell : m_reproduction->cells) {
         const bool hasInterval = cell.interval.low < cell.interval.high;
+        const double gap = cell.paper ? cell.ours - *cell.paper : 0.0;
         const auto z = cell.z();
-        const QString gap = !cell.paper ? QString()
-                                        : numberText(cell.ours - *cell.paper, 3)
-                                              + (z ? tr(" (%1 σ)").arg(numberText(*z, 1)) : QString());
-        const QString texts[] = {
-            QString::fromStdString(cell.row),
-            QString::fromStdString(cell.column),
-            cell.paper ? figure(*cell.paper) : QStringLiteral("–"),
-            cell.reference ? figure(*cell.reference) : QStringLiteral("–"),
-            figure(cell.ours),
-            hasInterval ? figure(cell.interval.low) + QStringLiteral(" … ") + figure(cell.interval.high) : QString(),
-            gap,
-            verdict(cell)};
-        for (int column = 0; column < 8; ++column) {
-            auto *item = new QTableWidgetItem(texts[column]);
-            if (column >= 2 && column <= 6)
-                item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
-            if (column == 7 && cell.isJudged() && !cell.isInside())
-                item->setForeground(colours.error);
-            m_table->setItem(row, column, item);
-        }
+        rows.push_back(
+            {{QString::fromStdString(cell.row)},
+             {QString::fromStdString(cell.column)},
+             number(cell.paper),
+             number(cell.reference),
+             number(cell.ours),
+             hasInterval ? TableCell{figure(cell.interval.low) + QStringLiteral(" … ") + figure(cell.interval.high),
+                                     cell.interval.low}
+                         : TableCell{},
+             cell.paper ? TableCell{numberText(gap, 3) + (z ? tr(" (%1 σ)").arg(numberText(*z, 1)) : QString()), gap}
+                        : TableCell{},
+             {.text = verdict(cell),
+              .colour = cell.isJudged() && !cell.isInside() ? QVariant(colours.error) : QVariant()}});
     }
+    m_table->show(reproducedHeadings(), std::move(rows));
     m_table->resizeColumnsToContents();
 }
 

@@ -8,11 +8,11 @@
 
 class QComboBox;
 class QLabel;
-class QTableWidget;
 
 namespace faintline {
 
 class ChartPlot;
+class ColumnTable;
 
 /// A table or figure of a publication compared with ours: each cell with the published number, ours, its interval, the
 /// difference and whether it is within its tolerance; the chart beside it; notes below.
@@ -37,7 +37,7 @@ private:
     std::shared_ptr<const Reproduction> m_reproduction;
     QLabel *m_title;
     QLabel *m_notes;
-    QTableWidget *m_table;
+    ColumnTable *m_table;
     QComboBox *m_which;
     ChartPlot *m_plot;
 };

@@ -10,7 +10,6 @@
 #include <QPalette>
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace faintline {
@@ -32,35 +31,58 @@ namespace {
         return {};
     }
 
-    /// Sort key of a column, except for the notes.
-    double sortKey(const SurveyModel::Row &row, int column)
-    {
-        const Event &event = row.event.event;
-        switch (column) {
-        case SurveyModel::Recording:
-            return double(row.recording);
-        case SurveyModel::Onset:
-            return event.onsetSeconds;
-        case SurveyModel::Duration:
-            return event.endSeconds - event.onsetSeconds;
-        case SurveyModel::Frequency:
-            return event.position.back();
-        case SurveyModel::Drift:
-            return event.driftPerSecond;
-        case SurveyModel::Statistic:
-            return event.statistic;
-        default:
-            return double(row.event.box.verdict);
-        }
-    }
-
-    bool isBefore(const SurveyModel::Row &a, const SurveyModel::Row &b, int column)
-    {
-        return column == SurveyModel::Note ? a.event.box.note < b.event.box.note
-                                           : sortKey(a, column) < sortKey(b, column);
-    }
-
 } // namespace
+
+SurveyModel::SurveyModel(QObject *parent) : ColumnModel(parent)
+{
+    constexpr double resolution = 0.01;
+    const auto number = [this](const QString &heading, double (*value)(const Event &), QString (*text)(double)) {
+        const auto of = [this, value](int i) { return value(row(i).event.event); };
+        return ShownColumn<int>{.heading = heading, .text = [of, text](int i) { return text(of(i)); }, .key = of};
+    };
+    const auto seconds = [](double value) { return secondsText(value, resolution); };
+    using E = const Event &;
+    std::vector<ShownColumn<int>> columns{
+        {.heading = tr("Recording"),
+         .text =
+             [this](int i) {
+                 return labelText(storedPath(recordings()[row(i).recording].file.path, pathBytes(path())));
+             },
+         .key = [this](int i) { return double(row(i).recording); },
+         .alignment = Qt::AlignLeft},
+        number(
+            tr("Onset"), [](E event) { return event.onsetSeconds; }, seconds),
+        number(
+            tr("Duration"), [](E event) { return event.endSeconds - event.onsetSeconds; }, seconds),
+        number(
+            tr("Frequency"), [](E event) { return event.position.back(); },
+            [](double hz) { return hertzText(hz, resolution); }),
+        number(
+            tr("Drift"), [](E event) { return event.driftPerSecond; }, [](double rate) { return rateText(rate); }),
+        number(
+            tr("Statistic"), [](E event) { return event.statistic; },
+            [](double value) { return numberText(value, 1); }),
+        {.heading = tr("Review"),
+         .text = [this](int i) { return verdictText(row(i).event.box.verdict); },
+         .key = [this](int i) { return double(row(i).event.box.verdict); },
+         .alignment = Qt::AlignLeft},
+        {.heading = tr("Note"),
+         .text = [this](int i) { return QString::fromStdString(oneLine(row(i).event.box.note)); },
+         .alignment = Qt::AlignLeft}};
+    for (ShownColumn<int> &column : columns) {
+        column.colour = [this](int i) {
+            return row(i).event.box.verdict == Verdict::Rejected
+                       ? QVariant(QPalette().brush(QPalette::Disabled, QPalette::Text))
+                       : QVariant();
+        };
+        column.cellTip = [this](int i) {
+            const auto start = recordings()[row(i).recording].startUnixSeconds;
+            return start ? QVariant(QString::fromStdString(formatUtc(*start + row(i).event.event.onsetSeconds)))
+                         : QVariant();
+        };
+    }
+    setColumns(std::move(columns));
+}
 
 SurveyModel::Content SurveyModel::read(const QString &path, const RunContext &context)
 {
@@ -79,36 +101,8 @@ void SurveyModel::show(Content content)
 {
     beginResetModel();
     m_content = std::move(content);
-    m_order.resize(m_content.rows.size());
-    std::iota(m_order.begin(), m_order.end(), std::size_t(0));
-    arrange();
+    setRowCount(int(m_content.rows.size()));
     endResetModel();
-}
-
-void SurveyModel::arrange()
-{
-    std::stable_sort(m_order.begin(), m_order.end(), [this](std::size_t a, std::size_t b) {
-        if (m_sortOrder == Qt::DescendingOrder)
-            std::swap(a, b);
-        return isBefore(m_content.rows[a], m_content.rows[b], m_sortColumn);
-    });
-}
-
-void SurveyModel::sort(int column, Qt::SortOrder order)
-{
-    m_sortColumn = column;
-    m_sortOrder = order;
-    emit layoutAboutToBeChanged();
-    const std::vector<std::size_t> before = m_order;
-    arrange();
-    std::vector<int> places(m_order.size());
-    for (std::size_t i = 0; i < m_order.size(); ++i)
-        places[m_order[i]] = int(i);
-    QModelIndexList moved; // keeps the selection
-    for (const QModelIndex &one : persistentIndexList())
-        moved << index(places[before[std::size_t(one.row())]], one.column());
-    changePersistentIndexList(persistentIndexList(), moved);
-    emit layoutChanged();
 }
 
 void SurveyModel::judge(const std::vector<int> &rows, Verdict verdict)
@@ -123,79 +117,9 @@ void SurveyModel::judge(const std::vector<int> &rows, Verdict verdict)
     }
     survey.commit();
     for (const int number : rows)
-        m_content.rows[m_order[std::size_t(number)]].event.box.verdict = verdict;
+        m_content.rows[std::size_t(number)].event.box.verdict = verdict;
     const auto [first, last] = std::minmax_element(rows.begin(), rows.end());
     emit dataChanged(index(*first, 0), index(*last, ColumnCount - 1));
-}
-
-QString SurveyModel::text(const Row &row, int column) const
-{
-    const Event &event = row.event.event;
-    constexpr double resolution = 0.01;
-    switch (column) {
-    case Recording:
-        return labelText(storedPath(recordings()[row.recording].file.path, pathBytes(path())));
-    case Onset:
-        return secondsText(event.onsetSeconds, resolution);
-    case Duration:
-        return secondsText(event.endSeconds - event.onsetSeconds, resolution);
-    case Frequency:
-        return hertzText(event.position.back(), resolution);
-    case Drift:
-        return rateText(event.driftPerSecond);
-    case Statistic:
-        return numberText(event.statistic, 1);
-    case Review:
-        return verdictText(row.event.box.verdict);
-    default:
-        return QString::fromStdString(oneLine(row.event.box.note));
-    }
-}
-
-QVariant SurveyModel::data(const QModelIndex &index, int role) const
-{
-    const Row &one = row(index.row());
-    switch (role) {
-    case Qt::DisplayRole:
-        return text(one, index.column());
-    case Qt::TextAlignmentRole:
-        return int(Qt::AlignVCenter
-                   | (index.column() >= Onset && index.column() <= Statistic ? Qt::AlignRight : Qt::AlignLeft));
-    case Qt::ForegroundRole:
-        return one.event.box.verdict == Verdict::Rejected
-                   ? QVariant(QPalette().brush(QPalette::Disabled, QPalette::Text))
-                   : QVariant();
-    case Qt::ToolTipRole:
-        if (const auto start = recordings()[one.recording].startUnixSeconds)
-            return QString::fromStdString(formatUtc(*start + one.event.event.onsetSeconds));
-        return {};
-    default:
-        return {};
-    }
-}
-
-QVariant SurveyModel::headerData(int section, Qt::Orientation orientation, int role) const
-{
-    if (orientation != Qt::Horizontal || role != Qt::DisplayRole)
-        return {};
-    switch (section) {
-    case Recording:
-        return tr("Recording");
-    case Onset:
-        return tr("Onset");
-    case Duration:
-        return tr("Duration");
-    case Frequency:
-        return tr("Frequency");
-    case Drift:
-        return tr("Drift");
-    case Statistic:
-        return tr("Statistic");
-    case Review:
-        return tr("Review");
-    default:
-        return tr("Note");
-    }
 }
 
 } // namespace faintline

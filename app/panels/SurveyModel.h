@@ -3,14 +3,14 @@
 #include "base/RunContext.h"
 #include "exchange/survey/SurveyDatabase.h"
 
-#include <QAbstractTableModel>
+#include "widgets/table/ColumnModel.h"
 
 #include <vector>
 
 namespace faintline {
 
-/// Table model of a survey's events: recording, time, position, statistic, review. Rows are sorted by a column.
-class SurveyModel : public QAbstractTableModel
+/// Table model of a survey's events: recording, time, position, statistic, review.
+class SurveyModel : public ColumnModel
 {
     Q_OBJECT
 
@@ -30,7 +30,7 @@ public:
         std::vector<Row> rows; ///< in the order of the file
     };
 
-    using QAbstractTableModel::QAbstractTableModel;
+    explicit SurveyModel(QObject *parent = nullptr);
 
     /// Reads a survey, on any thread. Throws Error and Cancelled.
     static Content read(const QString &path, const RunContext &context = {});
@@ -41,22 +41,10 @@ public:
     const QString &path() const { return m_content.path; }
     const SurveySettings &settings() const { return m_content.settings; }
     const std::vector<SurveyRecording> &recordings() const { return m_content.recordings; }
-    const Row &row(int number) const { return m_content.rows[m_order[std::size_t(number)]]; }
-
-    int rowCount(const QModelIndex &parent = {}) const override { return parent.isValid() ? 0 : int(m_order.size()); }
-    int columnCount(const QModelIndex & = {}) const override { return ColumnCount; }
-    QVariant data(const QModelIndex &index, int role) const override;
-    QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
-    void sort(int column, Qt::SortOrder order) override;
+    const Row &row(int number) const { return m_content.rows[std::size_t(number)]; }
 
 private:
-    QString text(const Row &row, int column) const;
-    void arrange();
-
     Content m_content;
-    std::vector<std::size_t> m_order; ///< indices of the displayed rows in the content
-    int m_sortColumn = Recording;
-    Qt::SortOrder m_sortOrder = Qt::AscendingOrder;
 };
 
 } // namespace faintline

@@ -1,15 +1,14 @@
 #include "app/panels/SurveyPanel.h"
 
 #include "app/base/filePath.h"
-#include "app/base/readingTable.h"
 #include "widgets/base/labelText.h"
+#include "widgets/table/ColumnTable.h"
 
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QPushButton>
-#include <QTableView>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -20,17 +19,16 @@
 namespace faintline {
 
 SurveyPanel::SurveyPanel(const Document &document, const AnalysisController &controller, QWidget *parent)
-    : Panel(parent), m_document(document), m_model(new SurveyModel(this)), m_table(new QTableView),
-      m_summary(plainLabel())
+    : Panel(parent), m_document(document), m_model(new SurveyModel(this)),
+      m_table(new ColumnTable(tr("Events of the survey"))), m_summary(plainLabel())
 {
-    m_table->setModel(m_model);
+    m_table->show(*m_model);
     m_table->setSortingEnabled(true);
     m_table->sortByColumn(SurveyModel::Statistic, Qt::DescendingOrder);
-    makeReadingTable(*m_table, 22);
+    m_table->setSmall();
     m_table->horizontalHeader()->setStretchLastSection(true);
     m_table->setColumnWidth(SurveyModel::Recording, 220);
     m_table->installEventFilter(this);
-    m_table->setAccessibleName(tr("Events of the survey"));
 
     auto *bottom = new QHBoxLayout;
     bottom->setContentsMargins(8, 4, 8, 4);
@@ -50,7 +48,7 @@ SurveyPanel::SurveyPanel(const Document &document, const AnalysisController &con
 
     connect(&m_runner, &JobRunner::failed, this, &SurveyPanel::failed);
     connect(&controller, &AnalysisController::settled, this, &SurveyPanel::reach);
-    connect(m_table, &QTableView::activated, this, &SurveyPanel::activate);
+    connect(m_table, &ColumnTable::activated, this, &SurveyPanel::activate);
     connect(m_table->selectionModel(), &QItemSelectionModel::selectionChanged, this, &SurveyPanel::followSelection);
     followSelection();
 }
@@ -127,11 +125,8 @@ void SurveyPanel::followSelection()
 
 void SurveyPanel::judge(Verdict verdict)
 {
-    std::vector<int> rows;
-    for (const QModelIndex &index : m_table->selectionModel()->selectedRows())
-        rows.push_back(index.row());
     try {
-        m_model->judge(rows, verdict);
+        m_model->judge(m_table->selectedSourceRows(), verdict);
     } catch (const Error &error) {
         emit failed(error);
     }
@@ -139,7 +134,7 @@ void SurveyPanel::judge(Verdict verdict)
 
 void SurveyPanel::activate(const QModelIndex &index)
 {
-    const SurveyModel::Row &row = m_model->row(index.row());
+    const SurveyModel::Row &row = m_model->row(m_table->sourceRow(index));
     const QString path = pathText(m_model->recordings()[row.recording].file.path);
     const int event = row.event.event.id;
     const SurveySettings &settings = m_model->settings();

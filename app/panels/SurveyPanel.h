@@ -10,9 +10,10 @@
 class QBoxLayout;
 class QLabel;
 class QPushButton;
-class QTableView;
 
 namespace faintline {
+
+class ColumnTable;
 
 /// The events of a survey of many recordings (faintline-cli survey): one table for all of them; a double-click opens
 /// the recording at the event. Reviews are written to the survey's file immediately.
@@ -29,7 +30,7 @@ public:
     /// Whether a file is opened by this panel, according to its name.
     static bool isSurvey(const QString &path);
 
-    QTableView *table() const { return m_table; }
+    ColumnTable *table() const { return m_table; }
     /// Writes a verdict for the selected events into the survey.
     void judge(Verdict verdict);
 
@@ -55,7 +56,7 @@ private:
 
     const Document &m_document;
     SurveyModel *m_model;
-    QTableView *m_table;
+    ColumnTable *m_table;
     QLabel *m_summary;
     QList<QPushButton *> m_buttons;
     QHash<int, Verdict> m_keys;

@@ -5,14 +5,35 @@
 
 namespace faintline {
 
-TargetModel::TargetModel(SceneEditor &editor, QObject *parent) : QAbstractTableModel(parent), m_editor(editor)
+TargetModel::TargetModel(SceneEditor &editor, QObject *parent) : ColumnModel(parent), m_editor(editor)
 {
     connect(&editor, &SceneEditor::sceneChanged, this, &TargetModel::follow);
     connect(&editor, &SceneEditor::rateUnitChanged, this, [this] {
+        layColumns();
         follow();
         emit headerDataChanged(Qt::Horizontal, 0, targetColumnCount - 1);
     });
+    layColumns();
     follow();
+}
+
+void TargetModel::layColumns()
+{
+    std::vector<ShownColumn<int>> columns;
+    for (int i = 0; i < targetColumnCount; ++i) {
+        const auto column = TargetColumn(i);
+        const QString sentence = sentenceOf(column, m_editor.rateUnit());
+        columns.push_back(
+            {.heading = titleOf(column, m_editor.rateUnit()),
+             .text =
+                 [this, i](int row) {
+                     return data(index(row, i), Qt::EditRole).toString().replace(QLatin1Char('-'), QChar(0x2212));
+                 },
+             .alignment = column == TargetColumn::Target ? Qt::AlignLeft : Qt::AlignRight,
+             .tip = sentence,
+             .cellTip = [sentence](int) { return sentence; }});
+    }
+    setColumns(std::move(columns));
 }
 
 /// Rows that stay keep the open cell editor and the selection.
@@ -23,6 +44,7 @@ void TargetModel::follow()
     if (rows.size() != m_rows.size()) {
         beginResetModel();
         m_rows = std::move(rows);
+        setRowCount(int(m_rows.size()));
         endResetModel();
     } else if (!rows.empty()) {
         m_rows = std::move(rows);
@@ -50,40 +72,16 @@ QModelIndex TargetModel::indexOf(const TargetHandle &handle, int column) const
 
 QVariant TargetModel::data(const QModelIndex &index, int role) const
 {
-    const PingScene *scene = m_editor.scene();
-    if (!index.isValid() || !scene)
+    if (!m_editor.scene() || !index.isValid())
         return {};
-    const TargetRow &row = m_rows[std::size_t(index.row())];
-    const auto column = TargetColumn(index.column());
-    switch (role) {
-    case Qt::EditRole:
-        return textOf(*scene, row, column, m_editor.rateUnit());
-    case Qt::DisplayRole:
-        return textOf(*scene, row, column, m_editor.rateUnit()).replace(QLatin1Char('-'), QChar(0x2212));
-    case Qt::TextAlignmentRole:
-        return int(column == TargetColumn::Target ? Qt::AlignLeft | Qt::AlignVCenter
-                                                  : Qt::AlignRight | Qt::AlignVCenter);
-    case Qt::ToolTipRole:
-        return sentenceOf(column, m_editor.rateUnit());
-    default:
-        return {};
-    }
-}
-
-QVariant TargetModel::headerData(int section, Qt::Orientation orientation, int role) const
-{
-    if (orientation != Qt::Horizontal)
-        return {};
-    if (role == Qt::DisplayRole)
-        return titleOf(TargetColumn(section), m_editor.rateUnit());
-    if (role == Qt::ToolTipRole)
-        return sentenceOf(TargetColumn(section), m_editor.rateUnit());
-    return {};
+    return role == Qt::EditRole ? textOf(*m_editor.scene(), m_rows[std::size_t(index.row())],
+                                         TargetColumn(index.column()), m_editor.rateUnit())
+                                : ColumnModel::data(index, role);
 }
 
 Qt::ItemFlags TargetModel::flags(const QModelIndex &index) const
 {
-    Qt::ItemFlags flags = QAbstractTableModel::flags(index);
+    Qt::ItemFlags flags = ColumnModel::flags(index);
     if (index.isValid() && isEditable(m_rows[std::size_t(index.row())], TargetColumn(index.column())))
         flags |= Qt::ItemIsEditable;
     return flags;

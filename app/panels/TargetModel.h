@@ -3,12 +3,12 @@
 #include "app/control/SceneEditor.h"
 #include "app/panels/targetCells.h"
 
-#include <QAbstractTableModel>
+#include "widgets/table/ColumnModel.h"
 
 namespace faintline {
 
 /// Table model of the targets under edit. A number that is typed into a cell becomes a step of the document.
-class TargetModel : public QAbstractTableModel
+class TargetModel : public ColumnModel
 {
     Q_OBJECT
 
@@ -19,10 +19,7 @@ public:
     TargetHandle handleAt(const QModelIndex &index) const;
     QModelIndex indexOf(const TargetHandle &handle, int column) const;
 
-    int rowCount(const QModelIndex &parent = {}) const override { return parent.isValid() ? 0 : int(m_rows.size()); }
-    int columnCount(const QModelIndex & = {}) const override { return targetColumnCount; }
     QVariant data(const QModelIndex &index, int role = Qt::DisplayRole) const override;
-    QVariant headerData(int section, Qt::Orientation orientation, int role = Qt::DisplayRole) const override;
     Qt::ItemFlags flags(const QModelIndex &index) const override;
     bool setData(const QModelIndex &index, const QVariant &value, int role = Qt::EditRole) override;
 
@@ -31,6 +28,7 @@ signals:
     void accepted();
 
 private:
+    void layColumns();
     void follow();
 
     SceneEditor &m_editor;

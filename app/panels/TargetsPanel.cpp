@@ -1,7 +1,6 @@
 #include "app/panels/TargetsPanel.h"
 
 #include "app/base/filePath.h"
-#include "app/base/readingTable.h"
 #include "app/panels/TargetModel.h"
 #include "base/files/AtomicFile.h"
 #include "widgets/base/Theme.h"
@@ -9,6 +8,7 @@
 #include "widgets/pings/PingMap.h"
 #include "widgets/pings/PolarView.h"
 #include "widgets/pings/TargetLayer.h"
+#include "widgets/table/ColumnTable.h"
 
 #include <QComboBox>
 #include <QFileDialog>
@@ -18,7 +18,6 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QSignalBlocker>
-#include <QTableView>
 #include <QUrl>
 #include <QVBoxLayout>
 
@@ -31,7 +30,7 @@ TargetsPanel::TargetsPanel(Document &document, const std::vector<PingMap *> &map
       m_addTarget(new QPushButton(tr("Target at cursor"))), m_addLeg(new QPushButton(tr("Leg to cursor"))),
       m_remove(new QPushButton(tr("Remove target"))), m_clear(new QPushButton(tr("Remove all"))),
       m_save(new QPushButton(tr("Save scene…"))), m_new(new QPushButton(tr("New scene"))), m_unit(new QComboBox),
-      m_table(new QTableView), m_sentence(panelSentence())
+      m_table(new ColumnTable(tr("Targets and their legs"))), m_sentence(panelSentence())
 {
     m_place->setCheckable(true);
     m_place->setToolTip(tr("Click a map to place a target in the ping shown; drag to draw its first leg"));
@@ -80,12 +79,12 @@ void TargetsPanel::layOut()
 void TargetsPanel::buildTable()
 {
     constexpr int rowHeight = 22;
-    m_table->setModel(m_model);
-    m_table->setAccessibleName(tr("Targets and their legs"));
+    m_table->setModel(m_model); // in its order, which legs have
+    m_table->horizontalHeader()->setSectionsClickable(false);
     m_table->setSelectionMode(QAbstractItemView::SingleSelection);
     m_table->setTabKeyNavigation(false);
     m_table->setWordWrap(false);
-    makeReadingTable(*m_table, rowHeight);
+    m_table->setSmall(rowHeight);
     m_table->setSelectionBehavior(QAbstractItemView::SelectItems);
     m_table->setShowGrid(true);
     m_table->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed

@@ -8,10 +8,10 @@
 class QComboBox;
 class QLabel;
 class QPushButton;
-class QTableView;
 
 namespace faintline {
 
+class ColumnTable;
 class PingMap;
 class TargetLayer;
 class TargetModel;
@@ -29,7 +29,6 @@ public:
                  QWidget *parent = nullptr);
 
     SceneEditor &editor() { return *m_editor; }
-    QTableView *table() const { return m_table; }
 
     /// Writes the scene as JSON, as `faintline-cli simulate` reads it. Throws Error.
     void save(const QString &path) const;
@@ -73,7 +72,7 @@ private:
     QPushButton *m_save;
     QPushButton *m_new;
     QComboBox *m_unit;
-    QTableView *m_table;
+    ColumnTable *m_table;
     QLabel *m_sentence;
     std::vector<TargetLayer *> m_layers; ///< of each map, from both sides
     bool m_isActive = false;

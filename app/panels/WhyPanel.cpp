@@ -1,6 +1,5 @@
 #include "app/panels/WhyPanel.h"
 
-#include "app/base/readingTable.h"
 #include "app/control/FramePlace.h"
 #include "app/document/Document.h"
 #include "app/document/statisticUnit.h"
@@ -10,13 +9,13 @@
 #include "widgets/base/familyWords.h"
 #include "widgets/base/labelText.h"
 #include "widgets/plot/ChartPlot.h"
+#include "widgets/table/ColumnTable.h"
 
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
 #include <QSplitter>
-#include <QTableWidget>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -186,9 +185,26 @@ QString teethSentence(const std::vector<FamilyTooth> &teeth, const FamilySetting
         .arg(unseen.join(QStringLiteral(", ")));
 }
 
+static std::vector<TableHeading> ladderHeadings(const Grid &grid)
+{
+    std::vector<TableHeading> headings{{WhyPanel::tr("Time")}};
+    for (const Axis &axis : grid.axes)
+        headings.push_back({axis.unit == "Hz" ? WhyPanel::tr("f (%1)").arg(shownUnit(axis).name) : titleOf(axis)});
+    headings.insert(
+        headings.end(),
+        {{WhyPanel::tr("λ"), WhyPanel::tr("Evidence: log-likelihood ratio of the cell's power, nat")},
+         {WhyPanel::tr("ln P"), WhyPanel::tr("Logarithm of the transition's probability, nat")},
+         {WhyPanel::tr("ln K"), WhyPanel::tr("ln K: bonus for continuing the path instead of restarting it (nat)")},
+         {WhyPanel::tr("Sum"), WhyPanel::tr("Sum of all terms so far, nat above background")},
+         {WhyPanel::tr("2nd"), WhyPanel::tr("Margin over the second-best transition into this step, nat")}});
+    return headings;
+}
+
 WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *parent)
     : QWidget(parent), m_document(document), m_viewports(viewports), m_sentence(panelSentence()), m_cure(plainLabel()),
-      m_remedy(new QPushButton), m_plot(new ChartPlot), m_teeth(new QTableWidget), m_ladder(new QTableWidget),
+      m_remedy(new QPushButton), m_plot(new ChartPlot),
+      m_teeth(new ColumnTable(tr("The members of the family along the path"))),
+      m_ladder(new ColumnTable(tr("The best path, newest step first"))),
       m_why(
           this, &WhyPanel::question,
           [](const auto &analysis, double seconds, const auto &position, const RunContext &context) {
@@ -235,21 +251,13 @@ WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *
 
 void WhyPanel::buildTables()
 {
-    for (QTableWidget *table : {m_teeth, m_ladder}) {
-        makeReadingTable(*table, 20);
+    for (ColumnTable *table : {m_teeth, m_ladder}) {
+        table->setSmall(20);
         table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
         table->horizontalHeader()->setResizeContentsPrecision(200); // rows
         table->setTextElideMode(Qt::ElideNone);
         table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     }
-    m_ladder->setAccessibleName(tr("The best path, newest step first"));
-    m_teeth->setAccessibleName(tr("The members of the family along the path"));
-    m_teeth->setColumnCount(4);
-    m_teeth->setHorizontalHeaderLabels({tr("Member"), tr("f (Hz)"), tr("y (dB)"), tr("Δλ (nat)")});
-    m_teeth->horizontalHeaderItem(1)->setToolTip(tr("Frequency of the member in this frame"));
-    m_teeth->horizontalHeaderItem(2)->setToolTip(tr("Mean power over noise along the path; 0 dB is noise"));
-    m_teeth->horizontalHeaderItem(3)->setToolTip(
-        tr("Evidence that the path would lose without this member; grey if none"));
     m_teeth->hide();
 }
 
@@ -284,50 +292,36 @@ void WhyPanel::showCure(const std::optional<Advice> &advice)
     m_remedy->setAccessibleName(m_remedy->text());
 }
 
-void WhyPanel::layColumns(const Analysis &analysis)
-{
-    QStringList names{tr("Time")};
-    for (const Axis &axis : analysis.grid().axes)
-        names << (axis.unit == "Hz" ? tr("f (%1)").arg(shownUnit(axis).name) : titleOf(axis));
-    const auto evidence = int(names.size()); // the first column behind the places
-    names << tr("λ") << tr("ln P") << tr("ln K") << tr("Sum") << tr("2nd");
-    m_ladder->setColumnCount(int(names.size()));
-    m_ladder->setHorizontalHeaderLabels(names);
-    m_ladder->horizontalHeaderItem(evidence)->setToolTip(tr("Evidence: log-likelihood ratio of the cell's power, nat"));
-    m_ladder->horizontalHeaderItem(evidence + 1)->setToolTip(tr("Logarithm of the transition's probability, nat"));
-    m_ladder->horizontalHeaderItem(evidence + 2)
-        ->setToolTip(tr("ln K: bonus for continuing the path instead of restarting "
-                        "it (nat)"));
-    m_ladder->horizontalHeaderItem(evidence + 3)->setToolTip(tr("Sum of all terms so far, nat above background"));
-    m_ladder->horizontalHeaderItem(evidence + 4)
-        ->setToolTip(tr("Margin over the second-best transition into this step, nat"));
-}
-
 void WhyPanel::showTeeth(const std::vector<FamilyTooth> &teeth, const FamilySettings &family)
 {
     constexpr int enoughRows = 3; ///< in a low panel, whose path is to be seen as well
     m_teeth->setHidden(teeth.empty());
-    m_teeth->setRowCount(int(teeth.size()));
+    std::vector<std::vector<TableCell>> rows;
+    const TableCell dash{QStringLiteral("–")};
+    for (const FamilyTooth &tooth : teeth) {
+        const double db = dbFromRatio(tooth.meanPower);
+        rows.push_back({{toothText(family, tooth), double(rows.size())},
+                        {numberText(tooth.hz, 2), tooth.hz},
+                        tooth.meanPower > 0.0 ? TableCell{numberText(db, 1), db} : dash,
+                        tooth.frames > 0 ? TableCell{signedText(tooth.evidence), tooth.evidence} : dash});
+        for (TableCell &cell : rows.back())
+            cell.isFaint = !tooth.isSeen();
+    }
+    m_teeth->show({{tr("Member")},
+                   {tr("f (Hz)"), tr("Frequency of the member in this frame")},
+                   {tr("y (dB)"), tr("Mean power over noise along the path; 0 dB is noise")},
+                   {tr("Δλ (nat)"), tr("Evidence that the path would lose without this member; grey if none")}},
+                  std::move(rows));
     const int height = m_teeth->horizontalHeader()->sizeHint().height() + m_teeth->verticalHeader()->length() + 2;
     m_teeth->setMinimumHeight(std::min(height, (enoughRows + 1) * m_teeth->verticalHeader()->defaultSectionSize() + 8));
     m_teeth->setMaximumHeight(height);
-    for (int row = 0; row < m_teeth->rowCount(); ++row) {
-        const FamilyTooth &tooth = teeth[std::size_t(row)];
-        const QString dash = QStringLiteral("–");
-        fillRow(*m_teeth, row,
-                {toothText(family, tooth), numberText(tooth.hz, 2),
-                 tooth.meanPower > 0.0 ? numberText(dbFromRatio(tooth.meanPower), 1) : dash,
-                 tooth.frames > 0 ? signedText(tooth.evidence) : dash});
-        for (int column = 0; column < m_teeth->columnCount(); ++column)
-            m_teeth->item(row, column)->setFlags(tooth.isSeen() ? Qt::ItemIsEnabled : Qt::NoItemFlags);
-    }
 }
 
 void WhyPanel::show()
 {
     if (!m_why.answer()) {
         showCure({});
-        m_ladder->setRowCount(0);
+        m_ladder->clear();
         m_teeth->hide();
         return m_plot->setChart({});
     }
@@ -337,7 +331,6 @@ void WhyPanel::show()
     const Axis &time = analysis.time();
     const Grid &grid = analysis.grid();
     const StateSpace &space = spaceOf(explanation, analysis);
-    layColumns(analysis);
     const FamilySettings &family = analysis.settings.family;
     m_sentence->setText(teeth.empty()
                             ? whySentence(explanation, analysis)
@@ -345,21 +338,26 @@ void WhyPanel::show()
     showTeeth(teeth, family);
     m_plot->setChart(chartOf(explanation, time));
     const std::size_t count = std::min(explanation.steps.size(), longestLadder);
-    m_ladder->setRowCount(int(count));
+    std::vector<std::vector<TableCell>> rows(count);
     for (std::size_t row = 0; row < count; ++row) {
         const PathStep &step = explanation.steps[explanation.steps.size() - 1 - row];
-        QStringList texts{secondsText(time.value(double(step.frame)), time.step)};
+        const double seconds = time.value(double(step.frame));
+        rows[row] = {{secondsText(seconds, time.step), seconds}};
         const std::vector<Index> cells = grid.coordinates(space.cellOf(step.state));
         for (std::size_t i = 0; i < cells.size(); ++i) {
             const Axis &axis = grid.axes[i];
-            const double unit = shownUnit(axis).hz;
-            texts << numberText(axis.value(double(cells[i])) / unit, decimalsFor(axis.step / unit));
+            const double unit = shownUnit(axis).hz, value = axis.value(double(cells[i])) / unit;
+            rows[row].push_back({numberText(value, decimalsFor(axis.step / unit)), value});
         }
-        texts << signedText(step.logLikelihoodRatio) << numberText(step.lnTransition, 2) << signedText(step.lnK)
-              << numberText(step.score, 2)
-              << (std::isfinite(step.runnerUp) ? numberText(-step.runnerUp, 2) : QStringLiteral("–"));
-        fillRow(*m_ladder, int(row), texts);
+        rows[row].insert(rows[row].end(),
+                         {{signedText(step.logLikelihoodRatio), step.logLikelihoodRatio},
+                          {numberText(step.lnTransition, 2), step.lnTransition},
+                          {signedText(step.lnK), step.lnK},
+                          {numberText(step.score, 2), step.score},
+                          std::isfinite(step.runnerUp) ? TableCell{numberText(-step.runnerUp, 2), -step.runnerUp}
+                                                       : TableCell{QStringLiteral("–")}});
     }
+    m_ladder->show(ladderHeadings(grid), std::move(rows));
 }
 
 } // namespace faintline

@@ -9,11 +9,11 @@
 
 class QLabel;
 class QPushButton;
-class QTableWidget;
 
 namespace faintline {
 
 class ChartPlot;
+class ColumnTable;
 class Document;
 class PingViewports;
 
@@ -35,9 +35,7 @@ public:
     }
     /// Carries the remedy of a cell that was not detected.
     QPushButton *remedy() const { return m_remedy; }
-    QTableWidget *ladder() const { return m_ladder; }
     /// One row for each member of a family; hidden without one.
-    QTableWidget *teeth() const { return m_teeth; }
     ChartPlot &plot() { return *m_plot; }
 
     QSize sizeHint() const override { return {360, 420}; }
@@ -64,16 +62,14 @@ private:
     void showTeeth(const std::vector<FamilyTooth> &teeth, const FamilySettings &family);
     void buildTables();
 
-    void layColumns(const Analysis &analysis);
-
     Document &m_document;
     const PingViewports &m_viewports;
     QLabel *m_sentence;
     QLabel *m_cure;        ///< hidden without one
     QPushButton *m_remedy; ///< of the cure
     ChartPlot *m_plot;
-    QTableWidget *m_teeth;
-    QTableWidget *m_ladder;
+    ColumnTable *m_teeth;
+    ColumnTable *m_ladder;
     Asking m_why;
 };
 

@@ -20,6 +20,7 @@
 #include "widgets/plot/ExceedancePlot.h"
 #include "widgets/plot/StripPlot.h"
 #include "widgets/plot/plotCsv.h"
+#include "widgets/table/ColumnTable.h"
 
 #include <QFileDialog>
 #include <QMenu>
@@ -30,6 +31,8 @@ namespace {
 
     std::string csvOf(QWidget &chart)
     {
+        if (const auto *table = qobject_cast<ColumnTable *>(&chart))
+            return table->csv();
         if (const auto *plot = qobject_cast<ChartPlot *>(&chart))
             return chartCsv(plot->chart());
         if (const auto *plot = qobject_cast<ExceedancePlot *>(&chart))
@@ -55,6 +58,9 @@ ChartMenus::ChartMenus(WindowParts &parts, QWidget *window) : QObject(window), m
         offer(chart);
     for (StripPlot *chart : window->findChildren<StripPlot *>())
         offer(chart);
+    for (ColumnTable *table : window->findChildren<ColumnTable *>())
+        connect(table->addAction(tr("Save table…")), &QAction::triggered, this,
+                [this, table] { ask(*table, QStringLiteral("table.csv")); });
     connect(&parts.thresholdPlot(), &ExceedancePlot::contextMenuRequested, this, [this](QMenu *menu) {
         menu->addSeparator();
         menu->addAction(tr("Save chart…"), this, [this] { ask(m_parts.thresholdPlot()); });
@@ -77,9 +83,9 @@ QString ChartMenus::captionFor(const QWidget &chart) const
     return captionOf(m_parts.document(), isOfInput ? CaptionOf::Input : CaptionOf::Statistic);
 }
 
-void ChartMenus::ask(QWidget &chart)
+void ChartMenus::ask(QWidget &chart, const QString &suggestedName)
 {
-    const QString path = QFileDialog::getSaveFileName(m_window, tr("Save chart"), QStringLiteral("chart.svg"),
+    const QString path = QFileDialog::getSaveFileName(m_window, tr("Save chart"), suggestedName,
                                                       tr("Drawing (*.svg);;Document (*.pdf);;Picture (*.png);;Numbers "
                                                          "(*.csv)"));
     if (!path.isEmpty())

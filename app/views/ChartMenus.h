@@ -16,8 +16,8 @@ class ExceedancePlot;
 class StripPlot;
 class WindowParts;
 
-/// Context menu of every chart of a window: *Save chart…* as SVG, PDF or PNG, in light colours with a caption of the
-/// settings, or its numbers as CSV.
+/// Context menu of every chart and table of a window: *Save chart…* as SVG, PDF or PNG, in light colours with a caption
+/// of the settings, or its numbers as CSV.
 class ChartMenus : public QObject
 {
     Q_OBJECT
@@ -34,7 +34,7 @@ signals:
     void failed(const faintline::Error &error);
 
 private:
-    void ask(QWidget &chart);
+    void ask(QWidget &chart, const QString &suggestedName = QStringLiteral("chart.svg"));
     QString captionFor(const QWidget &chart) const;
 
     WindowParts &m_parts;

@@ -5,7 +5,9 @@
 #include "app/panels/targetCells.h"
 #include "app/workspace/PingBench.h"
 #include "scene/PingTruth.h"
+#include "support/find.h"
 #include "widgets/pings/PingMap.h"
+#include "widgets/table/ColumnTable.h"
 
 #include <QLineEdit>
 #include <QPushButton>
@@ -53,6 +55,7 @@ protected:
 
     PingBench &bench() const { return m_window->pingBench(); }
     TargetsPanel &panel() const { return m_window->panel<TargetsPanel>(); }
+    ColumnTable &table() const { return childOf<ColumnTable>(panel()); }
     const PingScene &scene() const { return *m_window->document().source().pings; }
     const PingTarget &last() const { return scene().targets.back(); }
     WaterfallView &plane() const { return *bench().output()->plane(); }
@@ -82,7 +85,7 @@ protected:
     /// Types into a cell as a user does.
     void type(int row, TargetColumn column, const QString &what) const
     {
-        QTableView &table = *panel().table();
+        ColumnTable &table = this->table();
         table.setFocus();
         table.setCurrentIndex(table.model()->index(row, int(column)));
         QTest::keyClick(&table, Qt::Key_Return);
@@ -96,7 +99,7 @@ protected:
     }
     QString cell(int row, TargetColumn column) const
     {
-        return panel().table()->model()->index(row, int(column)).data().toString();
+        return table().model()->index(row, int(column)).data().toString();
     }
 
     QTemporaryDir m_folder;

@@ -1,11 +1,12 @@
 #include "app/control/Comparer.h"
 #include "app/openWindow.h"
 #include "app/panels/ComparePanel.h"
+#include "support/find.h"
 #include "support/test.h"
+#include "widgets/table/ColumnTable.h"
 #include "widgets/waterfall/WaterfallView.h"
 
 #include <QPushButton>
-#include <QTableWidget>
 
 using namespace faintline;
 using namespace faintline::test;
@@ -52,7 +53,7 @@ private slots:
         QVERIFY(panel.isVisible());
         QTRY_VERIFY(window.comparer().result().has_value());
         QCOMPARE(window.comparer().result()->comparison.count(ComparedEvent::In::Both), std::ptrdiff_t(1));
-        QVERIFY(panel.differences().contains("same settings"));
+        QVERIFY(childOf<QLabel>(panel, "Settings in which A and B differ").text().contains("same settings"));
 
         // One frame's power alone does not find the line.
         window.controller().edit("detector.kind", FieldValue(std::string("energy")), "Choose a detector");
@@ -60,19 +61,19 @@ private slots:
         QTRY_COMPARE(window.comparer().result()->b, window.document().analysis());
         const Comparison &comparison = window.comparer().result()->comparison;
         QCOMPARE(comparison.count(ComparedEvent::In::A), std::ptrdiff_t(1));
-        QVERIFY(panel.differences().contains(QString::fromUtf8("sequential Markov → single-frame energy")));
+        QVERIFY(childOf<QLabel>(panel, "Settings in which A and B differ")
+                    .text()
+                    .contains(QString::fromUtf8("sequential Markov → single-frame energy")));
         QVERIFY(panel.picture()->picture() == window.comparer().result()->difference);
         QTRY_VERIFY(window.comparer().cost().has_value());
         QVERIFY(sentenceOf(panel).contains("processor"));
 
         // A click on what only A has found puts the cursor there.
-        int row = -1;
-        for (int i = 0; i < panel.table()->rowCount(); ++i)
-            if (panel.table()->item(i, 0)->text() == "A")
-                row = i;
-        QVERIFY(row >= 0);
-        const QRect cell = panel.table()->visualItemRect(panel.table()->item(row, 1));
-        QTest::mouseClick(panel.table()->viewport(), Qt::LeftButton, {}, cell.center());
+        const ColumnTable &table = childOf<ColumnTable>(panel);
+        const QModelIndexList found = table.model()->match(table.model()->index(0, 0), Qt::DisplayRole, "A");
+        QCOMPARE(found.size(), 1);
+        const QPoint cell = table.visualRect(found.front().siblingAtColumn(1)).center();
+        QTest::mouseClick(table.viewport(), Qt::LeftButton, {}, cell);
         QVERIFY2(std::abs(window.document().viewport().cursor()->hz - 90.0) < 4.0,
                  qPrintable(QString::number(window.document().viewport().cursor()->hz)));
 

@@ -14,11 +14,12 @@
 #include "app/workspace/Workbench.h"
 #include "evaluate/experiments/peers.h"
 #include "exchange/Session.h"
+#include "support/find.h"
 #include "support/test.h"
 #include "widgets/plot/ChartPlot.h"
+#include "widgets/table/ColumnTable.h"
 
 #include <QCheckBox>
-#include <QTableWidget>
 
 #include <algorithm>
 #include <memory>
@@ -85,7 +86,8 @@ void tst_Evaluation::anExperimentGrowsAndEnds()
     QVERIFY(shown().state == Experiments::State::Done);
     QCOMPARE(shown().runsDone(), 3);
     QVERIFY(changed.count() >= 2);
-    QCOMPARE(m_window->panel<EvaluatePanel>().column().note(), QString()); // it is the form's own
+    QCOMPARE(m_window->panel<EvaluatePanel>().column().note(),
+             QString()); // it is the form's own
     fillForm(4);
     const QString note = m_window->panel<EvaluatePanel>().column().note();
     QVERIFY2(note.contains("3 runs, 0 … 3 dB, 100 T_FT, seed 1"), qPrintable(note));
@@ -193,7 +195,8 @@ void tst_Evaluation::curvesComeBackFromFiles()
     QCOMPARE(replay.readAllStandardOutput(), QByteArray("curve.csv: the same bytes\n"));
     fillForm(7);
     m_window->panel<EvaluatePanel>().show(list.importFile(m_folder.filePath("runs.jsonl")));
-    QCOMPARE(m_window->panel<EvaluatePanel>().column().note(), QString()); // the form shows its values
+    QCOMPARE(m_window->panel<EvaluatePanel>().column().note(),
+             QString()); // the form shows its values
     QCOMPARE(m_window->panel<EvaluatePanel>().pd().chart().curves.size(), before.curves.size());
     QVERIFY(shown().campaign->outcomes == m_window->experiments().entry(id)->campaign->outcomes);
     m_window->panel<EvaluatePanel>().show(list.importFile(m_folder.filePath("curve.csv")));
@@ -306,7 +309,7 @@ void tst_Evaluation::aReproductionShowsItsTable()
     QVERIFY(idle());
     QVERIFY2(m_window->experiments().entry(id)->reproduction != nullptr,
              qPrintable(m_window->experiments().entry(id)->failure));
-    QCOMPARE(m_window->panel<ReproductionPanel>().findChild<QTableWidget *>()->rowCount(), 2);
+    QCOMPARE(childOf<ColumnTable>(m_window->panel<ReproductionPanel>()).model()->rowCount(), 2);
     QVERIFY(m_window->panel<ReproductionPanel>().isVisible());
     QCOMPARE(m_window->panel<ReproductionPanel>().plot().chart().curves.size(), std::size_t(2));
     m_window->panel<ExperimentsPanel>().exportTo(id, m_folder.filePath("out"));
@@ -317,7 +320,7 @@ void tst_Evaluation::theNoiseIsMeasuredWhileItIsSeen()
 {
     m_window->showView("noisefit");
     QVERIFY(settle(m_window->panel<NoiseFitPanel>()));
-    QCOMPARE(m_window->panel<NoiseFitPanel>().table()->rowCount(), 6);
+    QCOMPARE(childOf<ColumnTable>(m_window->panel<NoiseFitPanel>()).model()->rowCount(), 6);
     QVERIFY2(sentenceOf(m_window->panel<NoiseFitPanel>()).contains("law"),
              qPrintable(sentenceOf(m_window->panel<NoiseFitPanel>())));
     QCOMPARE(m_window->panel<NoiseFitPanel>().plot().chart().curves.size(), std::size_t(7));

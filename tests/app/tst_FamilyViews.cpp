@@ -2,15 +2,17 @@
 #include "app/panels/SpectrumPanel.h"
 #include "app/panels/WhyPanel.h"
 #include "app/workspace/Workbench.h"
+#include "support/find.h"
 #include "support/test.h"
 #include "widgets/base/ReadOut.h"
 #include "widgets/plot/ChartPlot.h"
+#include "widgets/table/ColumnTable.h"
+#include "widgets/waterfall/OverlayItem.h"
 #include "widgets/waterfall/WaterfallView.h"
 
 #include <qwt_text.h>
 
 #include <QLabel>
-#include <QTableWidget>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +22,11 @@ using namespace faintline::test;
 
 /// A family of lines in the window: its teeth at the cursor, in the spectrum, and one by one in *Why*. The third of
 /// five multiples is missing.
+static QString noteOf(const WaterfallView &view)
+{
+    return itemOf<OverlayItem>(view).cursorNote;
+}
+
 class tst_FamilyViews : public QObject
 {
     Q_OBJECT
@@ -74,7 +81,7 @@ void tst_FamilyViews::theInputTellsTheMembersAtTheCursor()
     Viewport &viewport = m_window->document().viewport();
     WaterfallView &input = *m_window->workbench().input();
     viewport.setCursor({20.0, 50.0});
-    const QStringList lines = input.cursorNote().split('\n');
+    const QStringList lines = noteOf(input).split('\n');
     QCOMPARE(lines.size(), qsizetype(5));
     for (int k = 1; k <= 5; ++k) {
         QVERIFY2(lines[k - 1].startsWith(QStringLiteral("%1×").arg(k)), qPrintable(lines[k - 1]));
@@ -82,8 +89,8 @@ void tst_FamilyViews::theInputTellsTheMembersAtTheCursor()
     }
     input.setFocus();
     QTest::keyClick(&input, Qt::Key_Right); // one cell
-    QVERIFY(input.cursorNote() != lines.join('\n'));
-    QCOMPARE(m_window->workbench().output()->cursorNote(), QString());
+    QVERIFY(noteOf(input) != lines.join('\n'));
+    QCOMPARE(noteOf(*m_window->workbench().output()), QString());
 }
 
 void tst_FamilyViews::theSpectrumIsTheRecordingsWithTheTeethMarked()
@@ -121,16 +128,17 @@ void tst_FamilyViews::whyTellsWhatEachMemberBrought()
     m_window->document().viewport().setCursor({30.0, fundamental});
     QTest::keyClick(m_window.get(), Qt::Key_W);
     QVERIFY(settle(why));
-    const QTableWidget &teeth = *why.teeth();
+    const auto &teeth = childOf<ColumnTable>(why, "The members of the family along the path");
     QVERIFY(teeth.isVisible());
-    QCOMPARE(teeth.rowCount(), 5);
+    const QAbstractItemModel &rows = *teeth.model();
+    QCOMPARE(rows.rowCount(), 5);
     for (int row = 0; row < 5; ++row) {
         const bool isMissing = row == 2;
-        QCOMPARE(teeth.item(row, 0)->text(), QStringLiteral("%1×").arg(row + 1));
-        QCOMPARE(teeth.item(row, 0)->flags().testFlag(Qt::ItemIsEnabled), !isMissing);
-        const double db = teeth.item(row, 2)->text().replace(QChar(0x2212), '-').toDouble();
-        QVERIFY2(isMissing ? std::abs(db) < 2.0 : db > 4.0, qPrintable(teeth.item(row, 2)->text()));
-        QCOMPARE(teeth.item(row, 3)->text().startsWith('+'), !isMissing);
+        QCOMPARE(cellOf(rows, row, 0), QStringLiteral("%1×").arg(row + 1));
+        QCOMPARE(rows.index(row, 0).data(Qt::ForegroundRole).isValid(), isMissing); // grey
+        const double db = cellOf(rows, row, 2).toDouble();
+        QVERIFY2(isMissing ? std::abs(db) < 2.0 : db > 4.0, qPrintable(cellOf(rows, row, 2)));
+        QCOMPARE(cellOf(rows, row, 3).startsWith('+'), !isMissing);
     }
     QVERIFY2(sentenceOf(why).endsWith("4 of 5 members raise the evidence; it is no smaller without 3×."),
              qPrintable(sentenceOf(why)));
@@ -142,9 +150,9 @@ void tst_FamilyViews::singleLinesHaveNoTeeth()
     settings.family = {};
     m_window->controller().setSettings(settings, "No family");
     QVERIFY(settle(*m_window));
-    QCOMPARE(m_window->workbench().input()->cursorNote(), QString());
+    QCOMPARE(noteOf(*m_window->workbench().input()), QString());
     QVERIFY(settle(m_window->panel<WhyPanel>()));
-    QVERIFY(m_window->panel<WhyPanel>().teeth()->isHidden());
+    QVERIFY(childOf<ColumnTable>(m_window->panel<WhyPanel>(), "The members of the family along the path").isHidden());
     QTest::keyClick(m_window.get(), Qt::Key_S, Qt::ShiftModifier);
     QVERIFY(settle(m_window->panel<SpectrumPanel>()));
     QVERIFY(m_window->panel<SpectrumPanel>().plot().marks().empty());

@@ -10,6 +10,7 @@
 #include "app/welcome/WelcomePage.h"
 #include "app/workspace/Workbench.h"
 #include "exchange/Session.h"
+#include "support/find.h"
 #include "support/test.h"
 #include "widgets/events/EventModel.h"
 #include "widgets/events/EventTable.h"
@@ -163,7 +164,7 @@ private slots:
         QVERIFY(window->workbench().input()->picture());
         QVERIFY(window->workbench().output()->picture());
         QVERIFY(window->document().shownEvents().size() >= 2);
-        QCOMPARE(window->eventTable().shownIds().size(), window->document().shownEvents().size());
+        QCOMPARE(shownIds(window->eventTable()).size(), window->document().shownEvents().size());
         QCOMPARE(window->document().truth().lines.size(), std::size_t(2));
         QVERIFY(window->windowTitle().startsWith("scene.json"));
         QVERIFY(window->document().viewport().cursor());
@@ -189,7 +190,7 @@ private slots:
             QVERIFY(view->range().width() > 5.0);
             QVERIFY(view->layers().testFlag(WaterfallView::EventLayer));
         }
-        QCOMPARE(window->eventTable().shownIds().size(), events.size());
+        QCOMPARE(shownIds(window->eventTable()).size(), events.size());
         QVERIFY(window->document().viewport().cursor());
         QVERIFY(window->thresholdPlot().isVisible());
         const auto labels = window->statusBar()->findChildren<QLabel *>();
@@ -204,7 +205,7 @@ private slots:
         QVERIFY(openAndSettle(*window, m_scene));
         Document &document = window->document();
         ExceedancePlot &plot = window->thresholdPlot();
-        const std::vector<int> before = window->eventTable().shownIds();
+        const std::vector<int> before = shownIds(window->eventTable());
         const auto isPreview = [&window] {
             const auto labels = window->eventTable().findChildren<QLabel *>();
             return std::ranges::any_of(labels,
@@ -235,8 +236,8 @@ private slots:
                                 .arg(weakest)
                                 .arg(strongest)
                                 .arg(threshold)));
-        QVERIFY(window->eventTable().shownIds().size() < before.size());
-        QVERIFY(!window->eventTable().shownIds().empty());
+        QVERIFY(shownIds(window->eventTable()).size() < before.size());
+        QVERIFY(!shownIds(window->eventTable()).empty());
         QVERIFY(isPreview()); // what the detector finds at this threshold is not known yet
         QCOMPARE(*window->workbench().output()->threshold(), document.shownThreshold());
         QCOMPARE(document.undoStack().count(), 0);
@@ -253,13 +254,13 @@ private slots:
             QVERIFY(places.contains(event.id) && std::abs(places.at(event.id) - event.position.front()) < 10.0);
         QVERIFY2(std::abs(document.analysis()->threshold - between) < 0.5,
                  qPrintable(QString("%1, wanted %2").arg(document.analysis()->threshold).arg(between)));
-        QVERIFY(window->eventTable().shownIds().size() < before.size());
+        QVERIFY(shownIds(window->eventTable()).size() < before.size());
 
         QTest::keyClick(window.get(), Qt::Key_Z, Qt::ControlModifier);
         QVERIFY(settle(*window));
         QCOMPARE(document.settings(), AnalysisSettings());
         QCOMPARE(document.analysis()->threshold, threshold);
-        QCOMPARE(window->eventTable().shownIds(), before);
+        QCOMPARE(shownIds(window->eventTable()), before);
 
         QTest::keyClick(window.get(), Qt::Key_Y, Qt::ControlModifier);
         QVERIFY(settle(*window));
@@ -359,7 +360,7 @@ private slots:
         QVERIFY(openAndSettle(*window, m_scene));
         WaterfallView *output = window->workbench().output();
         output->setFocus();
-        const std::vector<int> ids = window->eventTable().shownIds();
+        const std::vector<int> ids = shownIds(window->eventTable());
         QVERIFY(ids.size() >= 2);
         QTest::keyClick(output, Qt::Key_N);
         const int first = window->eventTable().selectedEvent();
@@ -599,7 +600,7 @@ private slots:
             QVERIFY(top(bench.input()) + bench.input()->height() <= top(bench.output()));
             QCOMPARE(bench.output()->orientation(), WaterfallView::Orientation::LeftToRight);
             QVERIFY(settle(bench.layers()));
-            QCOMPARE(bench.layers().item().picture()->presence.empty(), false);
+            QCOMPARE(itemOf<LayerItem>(*bench.output()).picture()->presence.empty(), false);
             QVERIFY(bench.output()->heading().contains("found"));
             QTest::keyClick(bench.output(), Qt::Key_F);
             QVERIFY(bench.output()->heading().startsWith("Statistic D"));

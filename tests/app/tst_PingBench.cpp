@@ -10,6 +10,7 @@
 #include "app/panels/NoiseFitPanel.h"
 #include "app/panels/StateSlicePanel.h"
 #include "app/panels/WhyPanel.h"
+#include "app/ping.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
 #include "exchange/ModelFile.h"
@@ -17,12 +18,14 @@
 #include "scene/SimulatedPings.h"
 #include "signal/formats/NumPy.h"
 #include "signal/formats/gridFile.h"
+#include "support/find.h"
 #include "support/test.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/pings/PingMap.h"
 #include "widgets/pings/PolarView.h"
 #include "widgets/plot/ChartPlot.h"
 #include "widgets/plot/LawPlot.h"
+#include "widgets/table/ColumnTable.h"
 #include "widgets/waterfall/LayerItem.h"
 
 #include <qwt_plot_canvas.h>
@@ -35,7 +38,6 @@
 #include <QSplitter>
 #include <QTabBar>
 #include <QTableView>
-#include <QTableWidget>
 
 #include <algorithm>
 #include <cmath>
@@ -71,6 +73,15 @@ bool openWithNineRates(MainWindow &window, const QString &path)
 }
 
 } // namespace
+
+/// The chart of a panel with that ordinate.
+static const Chart &chartOf(const QWidget &panel, const std::string &y)
+{
+    for (const ChartPlot *plot : panel.findChildren<ChartPlot *>())
+        if (plot->chart().yLabel == y)
+            return plot->chart();
+    qFatal("no chart of %s", y.c_str());
+}
 
 class tst_PingBench : public QObject
 {
@@ -115,8 +126,8 @@ private slots:
         QCOMPARE(analysis.inhibitions.size(), std::size_t(24));
         QCOMPARE(analysis.statisticAlong.size(), std::size_t(2));
         QVERIFY(w->pingBench().input()->plane()->picture());
-        QVERIFY(w->pingBench().reading().startsWith("ping "));
-        QVERIFY(!w->eventTable().shownIds().empty());
+        QVERIFY(readingOf(w->pingBench()).startsWith("ping "));
+        QVERIFY(w->eventTable().table()->model()->rowCount() > 0);
         QVERIFY(w->windowTitle().contains("pings.json"));
     }
 
@@ -141,28 +152,28 @@ private slots:
         QVERIFY(openWithNineRates(*w, path("pings.json")));
         PingBench &bench = w->pingBench();
         bench.showPing(10);
-        QCOMPARE(bench.ping(), Index(10));
+        QCOMPARE(pingShown(*w), Index(10));
         QTest::keyClick(bench.output()->plane(), Qt::Key_L);
-        QCOMPARE(bench.ping(), Index(11));
+        QCOMPARE(pingShown(*w), Index(11));
         QTest::keyClick(bench.output()->plane(), Qt::Key_J);
         QTest::keyClick(bench.output()->plane(), Qt::Key_J);
-        QCOMPARE(bench.ping(), Index(9));
+        QCOMPARE(pingShown(*w), Index(9));
         auto *slider = bench.findChild<QSlider *>();
         QCOMPARE(slider->value(), 9);
         slider->setValue(15);
-        QCOMPARE(bench.ping(), Index(15));
-        QVERIFY(bench.reading().startsWith("ping 16/24"));
+        QCOMPARE(pingShown(*w), Index(15));
+        QVERIFY(readingOf(bench).startsWith("ping 16/24"));
         const auto shown = bench.input()->plane()->picture();
         bench.stepFrames(-100);
-        QCOMPARE(bench.ping(), Index(0));
+        QCOMPARE(pingShown(*w), Index(0));
         QVERIFY(bench.input()->plane()->picture() != shown);
 
         QSignalSpy playing(&bench, &Bench::playingChanged);
         QTest::keyClick(bench.output()->plane(), Qt::Key_Space);
         QCOMPARE(playing.count(), 1);
-        QTRY_VERIFY(bench.ping() >= 2);
+        QTRY_VERIFY(pingShown(*w) >= 2);
         bench.setPlayingBackward(true);
-        QTRY_COMPARE(bench.ping(), Index(0));
+        QTRY_COMPARE(pingShown(*w), Index(0));
         QTRY_COMPARE(playing.last().first().toBool(), false); // it ends at the first ping
     }
 
@@ -176,7 +187,7 @@ private slots:
         const Axis &time = w->document().analysis()->time();
         const QPointF at = history.positionOf({time.value(17.0), 3800.0});
         QTest::mouseClick(bench.alongHistory()->canvas(), Qt::LeftButton, {}, at.toPoint());
-        QCOMPARE(bench.ping(), Index(17));
+        QCOMPARE(pingShown(*w), Index(17));
         QVERIFY(std::abs(bench.viewports().map().cursor()->seconds - 3800.0) < 20.0);
     }
 
@@ -189,8 +200,8 @@ private slots:
         QCOMPARE(w->pingBench().viewports().place().seconds, event.detectSeconds);
         QCOMPARE(w->pingBench().viewports().across(), event.position[1]);
         // The cell it was found in is now kept from the detector for it.
-        QVERIFY2(w->pingBench().reading().contains(QStringLiteral("inhibited: track %1").arg(event.id)),
-                 qPrintable(w->pingBench().reading()));
+        QVERIFY2(readingOf(w->pingBench()).contains(QStringLiteral("inhibited: track %1").arg(event.id)),
+                 qPrintable(readingOf(w->pingBench())));
     }
 
     void inhibitionCanBeHidden()
@@ -255,8 +266,9 @@ private slots:
         QVERIFY(openWithNineRates(*w, path("pings.json")));
         w->showView("slice");
         w->panel<StateSlicePanel>().findChild<QTabBar *>()->setCurrentIndex(1);
-        QCoreApplication::processEvents();                          // the bars find their places
-        QCOMPARE(w->panel<StateSlicePanel>().law().plotCount(), 1); // a slope set has one law for both axes
+        QCoreApplication::processEvents(); // the bars find their places
+        QCOMPARE(std::ssize(w->panel<StateSlicePanel>().findChildren<LawPlot *>()),
+                 1); // a slope set has one law for both axes
         LawPlot &plot = *w->panel<StateSlicePanel>().law().plot(0);
         const std::vector<double> before = w->document().settings().model.slopeChange;
         const QPoint from = plot.canvasPosition(1, 0.2).toPoint();
@@ -273,7 +285,7 @@ private slots:
         // Targets that turn have a law for each of their rates.
         QSignalSpy settled(&w->controller(), &AnalysisController::settled);
         w->controller().edit("model.motion", std::string("manoeuvring"), "motion");
-        QCOMPARE(w->panel<StateSlicePanel>().law().plotCount(), 2);
+        QCOMPARE(std::ssize(w->panel<StateSlicePanel>().findChildren<LawPlot *>()), 2);
         emit w->panel<StateSlicePanel>().law().lawRequested("model.bearingRateChange", {0.8, 0.1});
         QCOMPARE(w->document().settings().model.bearingRateChange, (std::vector<double>{0.8, 0.1}));
         QVERIFY(settled.wait(patience));
@@ -286,11 +298,10 @@ private slots:
         QVERIFY(openWithNineRates(*w, path("pings.json")));
         w->showView("noisefit");
         QVERIFY(settle(w->panel<NoiseFitPanel>()));
-        const auto *table = w->panel<NoiseFitPanel>().findChild<QTableWidget *>();
-        QVERIFY2(table->rowCount() > 0, qPrintable(sentenceOf(w->panel<NoiseFitPanel>())));
-        for (int row = 0; row < table->rowCount(); ++row)
-            QVERIFY2(table->item(row, 0)->text().endsWith(QString::fromUtf8("°")),
-                     qPrintable(table->item(row, 0)->text()));
+        const QAbstractItemModel &table = *childOf<ColumnTable>(w->panel<NoiseFitPanel>()).model();
+        QVERIFY2(table.rowCount() > 0, qPrintable(sentenceOf(w->panel<NoiseFitPanel>())));
+        for (int row = 0; row < table.rowCount(); ++row)
+            QVERIFY2(cellOf(table, row, 0).endsWith(QString::fromUtf8("°")), qPrintable(cellOf(table, row, 0)));
     }
 
     void theLadderOfACell()
@@ -303,18 +314,19 @@ private slots:
         WhyPanel &why = w->panel<WhyPanel>();
         const Explanation &explanation = *why.explanation();
         QVERIFY2(sentenceOf(why).startsWith("Detected"), qPrintable(sentenceOf(why)));
-        QCOMPARE(why.ladder()->rowCount(), int(explanation.steps.size()));
-        QCOMPARE(why.ladder()->columnCount(), 8); // time, range, bearing, λ, ln P, ln K, sum, second best
-        QVERIFY(why.ladder()->horizontalHeaderItem(1)->text().startsWith("Range"));
+        const QAbstractItemModel &ladder = *childOf<ColumnTable>(why, "The best path, newest step first").model();
+        QCOMPARE(ladder.rowCount(), int(explanation.steps.size()));
+        QCOMPARE(ladder.columnCount(), 8); // time, range, bearing, λ, ln P, ln K, sum, second best
+        QVERIFY(ladder.headerData(1, Qt::Horizontal).toString().startsWith("Range"));
         double sum = explanation.offset;
         for (const PathStep &step : explanation.steps)
             sum += step.logLikelihoodRatio + step.lnTransition + step.lnK;
         QVERIFY(std::abs(sum - explanation.displayed) < 1e-3 * std::abs(sum));
         // A step back is another cell's ladder.
-        const int rows = why.ladder()->rowCount();
+        const int rows = ladder.rowCount();
         QTest::keyClick(w->pingBench().output()->plane(), Qt::Key_J);
         QVERIFY(settle(why));
-        QVERIFY(why.ladder()->rowCount() < rows);
+        QVERIFY(ladder.rowCount() < rows);
     }
 
     void latencyOfTheScene()
@@ -326,13 +338,13 @@ private slots:
         QVERIFY2(w->panel<LatencyPanel>().obstacle().isEmpty(), qPrintable(w->panel<LatencyPanel>().obstacle()));
         w->panel<LatencyPanel>().start(3);
         QVERIFY(settle(w->panel<LatencyPanel>()));
-        const Chart &pd = w->panel<LatencyPanel>().pdPlot()->chart();
+        const Chart &pd = chartOf(w->panel<LatencyPanel>(), "Pd");
         QCOMPARE(pd.curves.size(), std::size_t(2));
         for (std::size_t i = 1; i < pd.curves[0].points.size(); ++i)
             QVERIFY(pd.curves[0].points[i].y >= pd.curves[0].points[i - 1].y);
         QVERIFY(pd.curves[0].points.back().y >= pd.curves[1].points.back().y); // what is confirmed is detected
         double counted = 0.0;
-        for (const Curve::Point &point : w->panel<LatencyPanel>().histogramPlot()->chart().curves[0].points)
+        for (const Curve::Point &point : chartOf(w->panel<LatencyPanel>(), "targets").curves[0].points)
             counted += point.y;
         QCOMPARE(counted, 6.0 * pd.curves[0].points.back().y); // two targets, three runs
         QVERIFY(sentenceOf(w->panel<LatencyPanel>()).contains("6 targets in 3 runs"));
@@ -513,7 +525,7 @@ private slots:
         PingBench &bench = w->pingBench();
         OutputLayers &layers = w->workbench().layers();
         bench.showPing(15);
-        QVERIFY(!bench.reading().contains("path age")); // nothing is computed unasked
+        QVERIFY(!readingOf(bench).contains("path age")); // nothing is computed unasked
         const QImage statistic = bench.output()->grab().toImage();
         QTest::keyClick(bench.output()->plane(), Qt::Key_V);
         QCOMPARE(layers.layer(), OutputLayer::Rate);
@@ -524,16 +536,17 @@ private slots:
         const auto analysis = w->document().analysis();
         LayerReplay replay(analysis);
         const CellLayers &exact = replay.at(15);
-        QVERIFY(layers.item().picture());
-        QCOMPARE(layers.item().picture()->rows, Index(120));
+        QVERIFY(itemOf<LayerItem>(*bench.output()->plane()).picture());
+        QCOMPARE(itemOf<LayerItem>(*bench.output()->plane()).picture()->rows, Index(120));
         for (Index cell = 0; cell < 960; ++cell) {
             const CellReading there =
-                readPixel(*layers.item().picture(), layers.item().picture()->pixelAt(cell / 8, cell % 8));
+                readPixel(*itemOf<LayerItem>(*bench.output()->plane()).picture(),
+                          itemOf<LayerItem>(*bench.output()->plane()).picture()->pixelAt(cell / 8, cell % 8));
             const CellReading expected = readCell(*analysis, exact, cell);
             QVERIFY(std::abs(there.ratePerSecond - expected.ratePerSecond) < 1e-5);
             QVERIFY(std::abs(there.ageSeconds - expected.ageSeconds) < 1e-3);
         }
-        QVERIFY(bench.reading().contains("path age"));
+        QVERIFY(readingOf(bench).contains("path age"));
         // The next one is of bearings, which lines have not; from above, too.
         QTest::keyClick(bench.output()->plane(), Qt::Key_V);
         QCOMPARE(layers.layer(), OutputLayer::SecondRate);
@@ -548,9 +561,9 @@ private slots:
         QVERIFY(bench.output()->grab().toImage() != age);
         // Another ping's layer is not this one's: it goes at once and comes anew.
         bench.stepFrames(1);
-        QVERIFY(!layers.item().picture());
+        QVERIFY(!itemOf<LayerItem>(*bench.output()->plane()).picture());
         QVERIFY(settle(layers));
-        QVERIFY(layers.item().picture());
+        QVERIFY(itemOf<LayerItem>(*bench.output()->plane()).picture());
         layers.setLayer(OutputLayer::SecondRate);
         QVERIFY(settle(layers));
         writeFile(m_folder, "line.json",
@@ -568,7 +581,7 @@ private slots:
         OutputLayers &layers = w->workbench().layers();
         layers.setLayer(OutputLayer::Age);
         QVERIFY(settle(layers));
-        const auto picture = layers.item().picture();
+        const auto picture = itemOf<LayerItem>(*w->pingBench().output()->plane()).picture();
         QVERIFY(picture);
         QCOMPARE(picture->firstColumn, Index(4));
         QCOMPARE(picture->columns, Index(4));
@@ -614,7 +627,7 @@ private slots:
         bench.showPing(track.detectFrame + 3);
         const Grid &grid = w->document().analysis()->grid();
         const auto point = std::find_if(track.points.begin(), track.points.end(),
-                                        [&](const TrackPoint &p) { return p.frame == bench.ping(); });
+                                        [&](const TrackPoint &p) { return p.frame == pingShown(*w); });
         QVERIFY(point != track.points.end());
         const std::vector<Index> c = grid.coordinates(point->cell);
         const PingMarks::Place place{grid.axes[0].value(double(c[0])), grid.axes[1].value(double(c[1]))};

@@ -28,7 +28,7 @@ private slots:
 
 void tst_TargetTable::theTableAndTheMapShowTheSame()
 {
-    QCOMPARE(panel().table()->model()->rowCount(), 1);
+    QCOMPARE(table().model()->rowCount(), 1);
     QCOMPARE(cell(0, TargetColumn::Target), QString("T1"));
     QCOMPARE(cell(0, TargetColumn::Snr), QString("11"));
     QCOMPARE(cell(0, TargetColumn::From), QString("5"));
@@ -36,7 +36,7 @@ void tst_TargetTable::theTableAndTheMapShowTheSame()
     QCOMPARE(cell(0, TargetColumn::Pings), QString("12"));
     QCOMPARE(cell(0, TargetColumn::RangeRate), QString("0.5"));
     const auto title = [this](TargetColumn column) {
-        return panel().table()->model()->headerData(int(column), Qt::Horizontal).toString();
+        return table().model()->headerData(int(column), Qt::Horizontal).toString();
     };
     QCOMPARE(title(TargetColumn::RangeRate), QString("Range rate (cells/ping)"));
     auto *unit = panel().findChild<QComboBox *>();
@@ -48,12 +48,12 @@ void tst_TargetTable::theTableAndTheMapShowTheSame()
     startPlacing();
     QTest::mousePress(canvas(), Qt::LeftButton, {}, at(3300.0, 45.0));
     QTest::mouseMove(canvas(), at(3600.0, 45.0));
-    QCOMPARE(panel().table()->model()->rowCount(), 2);
+    QCOMPARE(table().model()->rowCount(), 2);
     QVERIFY(!cell(1, TargetColumn::RangeRate).isEmpty());
     QTest::mouseRelease(canvas(), Qt::LeftButton, {}, at(3600.0, 45.0));
-    QCOMPARE(panel().table()->currentIndex().row(), 1);
+    QCOMPARE(table().currentIndex().row(), 1);
     // A selected row selects the corner.
-    panel().table()->setCurrentIndex(panel().table()->model()->index(0, int(TargetColumn::RangeRate)));
+    table().setCurrentIndex(table().model()->index(0, int(TargetColumn::RangeRate)));
     QCOMPARE(panel().editor().selected(), (TargetHandle{0, 1}));
 }
 
@@ -141,7 +141,7 @@ void tst_TargetTable::everythingIsReachedByKeyboard()
     QCOMPARE(last().legs.size(), std::size_t(1));
     QCOMPARE(last().legs[0].rangeCellsPerPing, 0.5); // 10 cells in 20 pings
     // Digits typed on the table begin to edit; they are not the window's keys for classes.
-    QTableView &table = *panel().table();
+    ColumnTable &table = this->table();
     table.setFocus();
     table.setCurrentIndex(table.model()->index(1, int(TargetColumn::Snr)));
     QTest::keyClick(&table, Qt::Key_9);

@@ -231,11 +231,11 @@ void tst_Targets::everyStepIsUndone()
     plane().setFocus();
     QTest::keyClick(m_window.get(), Qt::Key_Z, Qt::ControlModifier);
     QVERIFY(scene() == before);
-    QCOMPARE(panel().table()->model()->rowCount(), 1);
+    QCOMPARE(table().model()->rowCount(), 1);
     QVERIFY(panel().editor().selected().isNone());
     QTest::keyClick(m_window.get(), Qt::Key_Y, Qt::ControlModifier);
     QVERIFY(scene() == after);
-    QCOMPARE(panel().table()->model()->rowCount(), 2);
+    QCOMPARE(table().model()->rowCount(), 2);
     QVERIFY(settle(*m_window));
     QVERIFY(m_window->document().isCurrent());
 }
@@ -279,7 +279,7 @@ void tst_Targets::aNewSceneHasNoTargets()
             button->click();
     QVERIFY(opened.wait(patience));
     QVERIFY(scene().targets.empty());
-    QCOMPARE(panel().table()->model()->rowCount(), 0);
+    QCOMPARE(table().model()->rowCount(), 0);
     QVERIFY(sentenceOf(panel()).startsWith("No targets"));
     QCOMPARE(panel().editor().rateUnit(), RateUnit::PerSecond);
     m_window->controller().stop();
@@ -303,7 +303,7 @@ void tst_Targets::otherPingsAreNotEdited()
     QVERIFY(!panel().editor().scene());
     QVERIFY(!buttonOf(panel(), "Place on the map")->isEnabled());
     QVERIFY(sentenceOf(panel()).contains("simulated scenes"));
-    QCOMPARE(panel().table()->model()->rowCount(), 0);
+    QCOMPARE(table().model()->rowCount(), 0);
 }
 
 FAINTLINE_WINDOW_TEST(tst_Targets)

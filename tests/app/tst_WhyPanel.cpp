@@ -2,17 +2,23 @@
 
 #include "app/openWindow.h"
 #include "app/panels/WhyPanel.h"
+#include "support/find.h"
 #include "support/test.h"
 #include "widgets/plot/ChartPlot.h"
+#include "widgets/table/ColumnTable.h"
 
 #include <QPushButton>
-#include <QTableWidget>
 #include <QUndoStack>
 
 #include <memory>
 
 using namespace faintline;
 using namespace faintline::test;
+
+static const ColumnTable &ladderOf(const WhyPanel &why)
+{
+    return childOf<ColumnTable>(why, "The best path, newest step first");
+}
 
 class tst_WhyPanel : public QObject
 {
@@ -75,8 +81,8 @@ void tst_WhyPanel::termsAddUp()
     for (const PathStep &step : explanation.steps)
         sum += step.logLikelihoodRatio + step.lnTransition + step.lnK;
     QVERIFY(std::abs(sum - explanation.displayed) < 1e-3 * std::max(1.0, std::abs(sum)));
-    QCOMPARE(why.ladder()->rowCount(), int(explanation.steps.size()));
-    QCOMPARE(why.ladder()->item(0, 5)->text().replace(QChar(0x2212), '-').toDouble(),
+    QCOMPARE(ladderOf(why).model()->rowCount(), int(explanation.steps.size()));
+    QCOMPARE(cellOf(*ladderOf(why).model(), 0, 5).toDouble(),
              std::round(100.0 * explanation.steps.back().score) / 100.0);
     QCOMPARE(why.plot().chart().curves.size(), std::size_t(2));
 }
@@ -84,14 +90,15 @@ void tst_WhyPanel::termsAddUp()
 void tst_WhyPanel::noNumberIsCutShort()
 {
     askAt(40.0, 120.0);
-    const QTableWidget &ladder = *m_window->panel<WhyPanel>().ladder();
+    const ColumnTable &ladder = ladderOf(m_window->panel<WhyPanel>());
     QCoreApplication::processEvents();
-    QVERIFY(ladder.rowCount() > 20);
+    const QAbstractItemModel &steps = *ladder.model();
+    QVERIFY(steps.rowCount() > 20);
     const QFontMetrics metrics(ladder.font());
-    for (int row = 0; row < ladder.rowCount(); ++row)
-        for (int column = 0; column < ladder.columnCount(); ++column)
-            QVERIFY2(metrics.horizontalAdvance(ladder.item(row, column)->text()) < ladder.columnWidth(column),
-                     qPrintable(ladder.item(row, column)->text()));
+    for (int row = 0; row < steps.rowCount(); ++row)
+        for (int column = 0; column < steps.columnCount(); ++column)
+            QVERIFY2(metrics.horizontalAdvance(steps.index(row, column).data().toString()) < ladder.columnWidth(column),
+                     qPrintable(cellOf(steps, row, column)));
     QCOMPARE(ladder.textElideMode(), Qt::ElideNone);
 }
 
@@ -103,7 +110,7 @@ void tst_WhyPanel::otherDetectorsSayThatTheyHaveNoPath()
     QVERIFY(settle(m_window->panel<WhyPanel>()));
     QVERIFY2(sentenceOf(m_window->panel<WhyPanel>()).contains("path"),
              qPrintable(sentenceOf(m_window->panel<WhyPanel>())));
-    QCOMPARE(m_window->panel<WhyPanel>().ladder()->rowCount(), 0);
+    QCOMPARE(ladderOf(m_window->panel<WhyPanel>()).model()->rowCount(), 0);
 }
 
 void tst_WhyPanel::theNextRecordingHasNoPathYet()
@@ -117,7 +124,7 @@ void tst_WhyPanel::theNextRecordingHasNoPathYet()
     int rows = -1;
     const auto connection = QObject::connect(&m_window->document(), &Document::opened, m_window.get(), [&] {
         sentence = sentenceOf(why);
-        rows = why.ladder()->rowCount();
+        rows = ladderOf(why).model()->rowCount();
     });
     QVERIFY(openAndSettle(*m_window, writeFile(m_folder, "noise.json",
                                                R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20})")));

@@ -5,7 +5,7 @@ namespace {
 const QStringList order{"base", "signal", "frames",    "noise",   "scene",   "model",    "recursion", "detect", "track",
                         "plan", "refine", "calibrate", "analyse", "inspect", "evaluate", "exchange",  "live"};
 constexpr int mostArrows = 86;
-const QStringList widgetOrder{"base", "plot", "waterfall", "pings", "events", "forms"};
+const QStringList widgetOrder{"base", "table", "plot", "waterfall", "pings", "events", "forms"};
 const QStringList appOrder{"cli",   "base",    "document", "control", "workspace", "panels",
                            "views", "lessons", "help",     "welcome", "window",    "render"};
 

@@ -4,6 +4,7 @@
 #include "base/files/AtomicFile.h"
 #include "scene/SimulatedRecording.h"
 #include "signal/formats/writeRecording.h"
+#include "support/find.h"
 #include "support/lines.h"
 #include "support/test.h"
 #include "walks/Walk.h"
@@ -117,7 +118,7 @@ void chooseEventAt(Walk &walk, double hz)
                      [&]() -> QPointF {
                          for (const Event &event : walk.window().document().shownEvents())
                              if (std::abs(event.position.front() - hz) < 10.0) {
-                                 const std::vector<int> ids = table.shownIds();
+                                 const std::vector<int> ids = shownIds(table);
                                  const auto row = std::find(ids.begin(), ids.end(), event.id) - ids.begin();
                                  return table.table()->visualRect(table.table()->model()->index(int(row), 0)).center();
                              }

@@ -4,14 +4,15 @@
 #include "app/panels/StateSlicePanel.h"
 #include "app/panels/TrajectoryPage.h"
 #include "app/panels/WhyPanel.h"
+#include "app/ping.h"
 #include "app/welcome/WelcomePage.h"
 #include "app/workspace/PingBench.h"
+#include "support/find.h"
 #include "support/test.h"
 #include "walks/Walk.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/pings/PingMap.h"
-
-#include <QTableWidget>
+#include "widgets/table/ColumnTable.h"
 
 using namespace faintline;
 using namespace faintline::test;
@@ -20,7 +21,7 @@ namespace {
 
 Index ping(Walk &walk)
 {
-    return walk.window().pingBench().ping();
+    return pingShown(walk.window());
 }
 
 void openSonar(Walk &walk)
@@ -63,7 +64,8 @@ void explainTarget(Walk &walk)
     walk.hand.press("w");
     walk.waitUntil("the steps of its path", [&] {
         const WhyPanel &why = walk.window().panel<WhyPanel>();
-        return why.isVisible() && why.explanation() && why.ladder()->rowCount() > 0;
+        return why.isVisible() && why.explanation()
+               && childOf<ColumnTable>(why, "The best path, newest step first").model()->rowCount() > 0;
     });
     walk.takePicture("sonar-why");
 }

@@ -186,8 +186,6 @@ private slots:
         QCOMPARE(proxy.rowCount(), 3);
         proxy.setFilter(EventFilter("f>500"));
         QCOMPARE(proxy.rowCount(), 2);
-        proxy.sort(EventModel::Id, Qt::DescendingOrder); // by value: as texts, 10 comes before 1
-        QCOMPARE(proxy.index(0, EventModel::Id).data().toString(), QString("10"));
         proxy.setFilter(EventFilter("f>1e9"));
         QCOMPARE(proxy.rowCount(), 0);
         model.setEvents({test::event(4, 1.0, 2.0, 2e9)}); // new events, the same filter

@@ -3,6 +3,7 @@
 
 #include "pictures.h"
 #include "pixels.h"
+#include "support/find.h"
 #include "widgets/base/Theme.h"
 #include "widgets/events/EventCard.h"
 #include "widgets/events/EventFilter.h"
@@ -41,11 +42,11 @@ private slots:
 
     void sortsByValueNotByText()
     {
-        QCOMPARE(m_table->shownIds(), (std::vector<int>{1, 3, 2})); // by onset
+        QCOMPARE(test::shownIds(*m_table), (std::vector<int>{1, 3, 2})); // by onset
         m_table->table()->sortByColumn(EventModel::Statistic, Qt::AscendingOrder);
-        QCOMPARE(m_table->shownIds(), (std::vector<int>{2, 1, 3})); // 9.5, 31, 101
+        QCOMPARE(test::shownIds(*m_table), (std::vector<int>{2, 1, 3})); // 9.5, 31, 101
         m_table->table()->sortByColumn(EventModel::Frequency, Qt::DescendingOrder);
-        QCOMPARE(m_table->shownIds(), (std::vector<int>{2, 1, 3}));
+        QCOMPARE(test::shownIds(*m_table), (std::vector<int>{2, 1, 3}));
     }
 
     void newResultsDoNotReorderTheList()
@@ -53,14 +54,14 @@ private slots:
         // Event 1 begins later now, event 2 is gone, and a new one begins between the others.
         m_table->setEvents(
             {test::event(1, 50.0, 60.0, 950.0), test::event(3, 40.0, 90.0, 300.0), test::event(4, 20.0, 30.0, 500.0)});
-        QCOMPARE(m_table->shownIds(), (std::vector<int>{1, 4, 3}));
+        QCOMPARE(test::shownIds(*m_table), (std::vector<int>{1, 4, 3}));
         const QHeaderView &header = *m_table->table()->horizontalHeader();
         const QPoint onset(header.sectionViewportPosition(EventModel::Onset) + 4, header.height() / 2);
         QTest::mouseClick(header.viewport(), Qt::LeftButton, {}, onset);
-        QCOMPARE(m_table->shownIds(), (std::vector<int>{1, 3, 4})); // from the latest on
-        m_table->setEvents({});                                     // another recording
+        QCOMPARE(test::shownIds(*m_table), (std::vector<int>{1, 3, 4})); // from the latest on
+        m_table->setEvents({});                                          // another recording
         m_table->setEvents({test::event(1, 1.0, 2.0, 950.0), test::event(3, 9.0, 10.0, 300.0)});
-        QCOMPARE(m_table->shownIds(), (std::vector<int>{3, 1}));
+        QCOMPARE(test::shownIds(*m_table), (std::vector<int>{3, 1}));
     }
 
     void aNarrowPanelShowsWhereAndSinceWhen()
@@ -177,7 +178,7 @@ private slots:
     {
         const auto shown = [&](const QString &text) {
             m_table->filter()->setText(text);
-            return m_table->shownIds();
+            return test::shownIds(*m_table);
         };
         QCOMPARE(shown("f>500"), (std::vector<int>{1, 2}));
         QCOMPARE(shown("f>500 stat>=31"), (std::vector<int>{1}));

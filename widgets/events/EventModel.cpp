@@ -11,36 +11,22 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <string>
+#include <utility>
 
 namespace faintline {
 
 namespace {
 
-    Qt::Alignment alignmentOf(int column)
+    constexpr double never = std::numeric_limits<double>::infinity();
+
+    double windowOf(const Event &event)
     {
-        const bool isWord = column == EventModel::State || column == EventModel::Judged || column == EventModel::Class;
-        return (isWord                       ? Qt::AlignHCenter
-                : column == EventModel::Note ? Qt::AlignLeft
-                                             : Qt::AlignRight)
-               | Qt::AlignVCenter;
+        return std::isfinite(event.windowSeconds) ? event.windowSeconds : 0.0;
     }
 
-    /// The column of files that is shown in a column of the table.
-    const TableColumn<Event> &fileColumn(int column)
+    QString orDash(double value, const std::function<QString(double)> &text)
     {
-        static const std::map<int, std::string> names{{EventModel::Id, "event"},
-                                                      {EventModel::Onset, "t_onset"},
-                                                      {EventModel::Detection, "t_detect"},
-                                                      {EventModel::Statistic, "statistic"},
-                                                      {EventModel::Snr, "snr_db"},
-                                                      {EventModel::Chance, "noise_probability"},
-                                                      {EventModel::Window, "window_s"},
-                                                      {EventModel::End, "t_end"},
-                                                      {EventModel::Drift, "drift_hz_per_s"}};
-        static const auto columns = eventColumns(Grid(), {.secondPass = true});
-        return *std::ranges::find(columns, names.at(column), &TableColumn<Event>::name);
+        return std::isfinite(value) ? text(value) : QStringLiteral("–");
     }
 
     QString chanceText(double probability)
@@ -56,51 +42,187 @@ namespace {
 
 } // namespace
 
-double EventModel::sortValue(const Event &event, int column) const
+EventModel::EventModel(QObject *parent) : ColumnModel(parent)
 {
-    switch (column) {
-    case Id:
-        return event.id;
-    case Utc:
-        return event.onsetSeconds;
-    case Confirmation:
-        return std::isfinite(event.confirmSeconds) ? event.confirmSeconds : std::numeric_limits<double>::infinity();
-    case Frequency:
-    case Radio:
-        return event.position.empty() ? 0.0 : event.position.front();
-    case Bearing:
-    case ThirdAxis:
-    case FourthAxis: {
-        const std::size_t axis = axisOf(Column(column));
+    layColumns();
+}
+
+/// A column of files, with its unit if there is no other.
+ShownColumn<Event> EventModel::ofFile(const char *name, std::function<QString(const Event &)> text,
+                                      const std::optional<QString> &otherUnit) const
+{
+    static const auto columns = eventColumns(Grid(), {.secondPass = true});
+    const TableColumn<Event> &column = *std::ranges::find(columns, name, &TableColumn<Event>::name);
+    const QString heading = QString::fromStdString(column.heading);
+    const QString unit = otherUnit.value_or(QString::fromStdString(column.unit));
+    return {.heading = unit.isEmpty() ? heading : QStringLiteral("%1 (%2)").arg(heading, unit),
+            .text = std::move(text),
+            .key = [&column](const Event &event) { return column.number(event); },
+            .tip = QString::fromStdString(column.sentence)};
+}
+
+/// Seconds without a unit, which each row would repeat, or h:min:s in all rows.
+QString EventModel::timeText(double seconds) const
+{
+    return m_areClockTimes && std::isfinite(seconds) ? clockText(seconds, 0, true)
+                                                     : numberText(seconds, m_timeDecimals);
+}
+
+ShownColumn<Event> EventModel::withTimes(ShownColumn<Event> column) const
+{
+    column.text = [this, seconds = column.key](const Event &event) { return timeText(seconds(event)); };
+    column.cellTip = [seconds = column.key](const Event &event) { return secondsText(seconds(event), 0.01); };
+    return column;
+}
+
+ShownColumn<Event> EventModel::ofAxis(std::size_t axis) const
+{
+    const auto unitOf = [this](std::size_t i) { return labelText(m_axes[i].unit, mostUnitLetters); };
+    const auto nameOf = [this](std::size_t i) { return capitalised(labelText(m_axes[i].name, mostUnitLetters)); };
+    ShownColumn<Event> column;
+    column.text = [axis, decimals = axis == 0 && hasBearing() ? decimalsFor(m_axes.front().step)
+                                    : axis == 0               ? 2
+                                                              : 1](const Event &event) {
+        return axis < event.position.size() ? numberText(event.position[axis], decimals) : QStringLiteral("–");
+    };
+    column.key = [axis](const Event &event) {
         return event.position.empty() ? 0.0 : event.position[std::min(axis, event.position.size() - 1)];
+    };
+    if (axis == 0 && !hasBearing()) {
+        column.heading = tr("f (Hz)");
+        column.tip = tr("Frequency in the middle between onset and end");
+        return column;
     }
-    case Drift:
+    const bool isThere = axis < m_axes.size();
+    column.tip = tr("%1 at detection").arg(isThere ? nameOf(axis) : tr("Position"));
+    if (!isThere || unitOf(axis).isEmpty()) {
+        column.heading = isThere ? nameOf(axis) : tr("Axis %1").arg(axis + 1);
+        return column;
+    }
+    // As "f (Hz)", so that the times are in view; the tool tip has the whole name.
+    const bool isBrief = m_axes.size() == 2 && nameOf(0).left(1) != nameOf(1).left(1);
+    column.spoken = QStringLiteral("%1 (%2)").arg(nameOf(axis), unitOf(axis));
+    column.heading = isBrief ? QStringLiteral("%1 (%2)").arg(nameOf(axis).left(1), unitOf(axis)) : column.spoken;
+    return column;
+}
+
+/// In the order of `Column`.
+std::vector<ShownColumn<Event>> EventModel::columns() const
+{
+    using E = const Event &;
+    const auto radioHz = [this](E event) { return m_centreHz + event.position.front(); };
+    ShownColumn<Event> onset = withTimes(ofFile("t_onset", {}, QString()));
+    onset.tip = tr("%1; s, from ten minutes on h:min:s").arg(onset.tip);
+    ShownColumn<Event> drift = ofFile("drift_hz_per_s", {});
+    if (hasBearing())
+        drift.heading = tr("Rate (%1/s)").arg(labelText(m_axes.front().unit, mostUnitLetters));
+    drift.key = [this](E event) {
         return hasBearing() && !event.ratesPerSecond.empty() ? event.ratesPerSecond.front() : event.driftPerSecond;
-    case Snr:
-        return std::isfinite(event.snrDb) ? event.snrDb : -std::numeric_limits<double>::infinity();
-    case Chance:
-        return std::isfinite(event.noiseProbability) ? event.noiseProbability : 1.0;
-    case Window:
-        return std::isfinite(event.windowSeconds) ? event.windowSeconds : 0.0;
-    case Judged: {
-        const EventReview said = review(event);
-        return said.verdict == Verdict::Accepted ? 0.0 : said.verdict == Verdict::None ? 1.0 : 2.0;
+    };
+    drift.text = [rate = drift.key](E event) { return powerText(rate(event), 3); };
+    ShownColumn<Event> snr = ofFile(
+        "snr_db", [](E event) { return orDash(event.snrDb, [](double value) { return numberText(value, 1); }); },
+        m_snrUnit);
+    snr.key = [](E event) { return std::isfinite(event.snrDb) ? event.snrDb : -never; };
+    ShownColumn<Event> id = ofFile("event", [this](E event) { return idText(event); });
+    id.key = [](E event) { return event.id; };
+
+    std::vector<ShownColumn<Event>> all{
+        id,
+        ofAxis(0),
+        ofAxis(1),
+        ofAxis(2),
+        ofAxis(3),
+        onset,
+        withTimes(ofFile("t_detect", {}, QString())),
+        withTimes({.heading = tr("Conf."),
+                   .key = [](E event) { return event.confirmSeconds; },
+                   .tip = tr("Confirmed: time at which the track was confirmed")}),
+        ofFile(
+            "statistic", [](E event) { return numberText(event.statistic, 1); }, m_statisticUnit),
+        snr,
+        ofFile("noise_probability", [](E event) { return orDash(event.noiseProbability, chanceText); }),
+        ofFile("window_s",
+               [](E event) {
+                   return orDash(event.windowSeconds, [](double value) { return QString::number(value, 'g', 4); });
+               }),
+        {.heading = tr("Onset (UTC)"),
+         .text =
+             [this](E event) {
+                 return m_startUnixSeconds
+                            ? QString::fromStdString(formatUtc(toTenths(*m_startUnixSeconds + event.onsetSeconds)))
+                            : QString();
+             },
+         .key = [](E event) { return event.onsetSeconds; },
+         .tip = tr("Date and time of the onset")},
+        {.heading = tr("RF (Hz)"),
+         .text = [radioHz](E event) { return event.position.empty() ? QString() : numberText(radioHz(event), 2); },
+         .key = [](E event) { return event.position.empty() ? 0.0 : event.position.front(); },
+         .tip = tr("Radio frequency in the middle between onset and end: centre frequency plus offset")},
+        withTimes(ofFile("t_end", {}, QString())),
+        drift,
+        {.heading = tr("State"),
+         .text = stateText,
+         .key = [](E event) { return (event.isConfirmed ? 0.0 : 2.0) + (event.isOpen ? 1.0 : 0.0); },
+         .alignment = Qt::AlignHCenter,
+         .tip = tr("Confirmed or tentative; open if the data ended before the track")},
+        {.heading = tr("Review"),
+         .text = [this](E event) { return reviewText(review(event)); },
+         .key =
+             [this](E event) {
+                 const Verdict verdict = review(event).verdict;
+                 return verdict == Verdict::Accepted ? 0.0 : verdict == Verdict::None ? 1.0 : 2.0;
+             },
+         .alignment = Qt::AlignHCenter,
+         .tip = tr("Accepted (Y), rejected (X) or undecided (U), or part of another event's signal")},
+        {.heading = tr("Class"),
+         .text = [this](E event) { return labelText(review(event).label, longestNote); },
+         .key = [this](E event) { return double(std::distance(m_labels.begin(), m_labels.find(review(event).label))); },
+         .alignment = Qt::AlignHCenter,
+         .tip = tr("Your class of the signal; 1 to 9 set it, Shift+U clears it")},
+        {.heading = tr("Note"),
+         .text = [this](E event) { return labelText(review(event).note, longestNote); },
+         .key = [this](E event) { return review(event).note.empty() ? 1.0 : 0.0; },
+         .alignment = Qt::AlignLeft,
+         .tip = tr("Your note on the event; E edits it"),
+         .cellTip =
+             [this](E event) {
+                 const QString note = labelText(review(event).note, longestNote);
+                 return note.isEmpty() ? QVariant() : asHtml(note);
+             }}};
+    for (ShownColumn<Event> &one : all)
+        one.colour = [this](E event) {
+            return review(event).verdict == Verdict::Rejected
+                       ? QVariant(QGuiApplication::palette().brush(QPalette::PlaceholderText))
+                       : QVariant();
+        };
+    return all;
+}
+
+/// The texts are those of the events, the order is that of the values with which they were listed.
+void EventModel::layColumns()
+{
+    std::vector<ShownColumn<int>> all;
+    for (const ShownColumn<Event> &one : columns()) {
+        const auto of = [this](const auto &function) {
+            return [this, function](int row) { return function(m_events[std::size_t(row)]); };
+        };
+        const auto key = [this, key = one.key](int row) {
+            return key(*m_ordered.constFind(m_events[std::size_t(row)].id));
+        };
+        all.push_back({one.heading, of(one.text), key, one.alignment, one.tip, one.spoken, of(one.colour), {}});
+        if (one.cellTip)
+            all.back().cellTip = of(one.cellTip);
     }
-    case Class:
-        return double(std::distance(m_labels.begin(), m_labels.find(review(event).label)));
-    case Note:
-        return review(event).note.empty() ? 1.0 : 0.0;
-    case State:
-        return (event.isConfirmed ? 0.0 : 2.0) + (event.isOpen ? 1.0 : 0.0);
-    default:
-        return fileColumn(column).number(event);
-    }
+    setColumns(std::move(all));
+    emit headerDataChanged(Qt::Horizontal, 0, ColumnCount - 1);
 }
 
 void EventModel::setEvents(std::vector<Event> events)
 {
     beginResetModel();
     m_events = std::move(events);
+    setRowCount(int(m_events.size()));
     QHash<int, Event> ordered;
     for (const Event &event : m_events)
         ordered.insert(event.id, m_ordered.value(event.id, event));
@@ -162,104 +284,14 @@ QString EventModel::stateText(const Event &event)
     return event.isSubtracted ? tr("%1, subtracted").arg(ended) : ended;
 }
 
-int EventModel::rowCount(const QModelIndex &parent) const
+/// Visible in a narrow panel, unlike the review column.
+QString EventModel::idText(const Event &event) const
 {
-    return parent.isValid() ? 0 : int(m_events.size());
-}
-
-int EventModel::columnCount(const QModelIndex &parent) const
-{
-    return parent.isValid() ? 0 : ColumnCount;
-}
-
-/// Seconds without a unit, which each row would repeat, or h:min:s in all rows.
-QString EventModel::timeText(double seconds) const
-{
-    return m_areClockTimes && std::isfinite(seconds) ? clockText(seconds, 0, true)
-                                                     : numberText(seconds, m_timeDecimals);
-}
-
-QString EventModel::text(const Event &event, int column) const
-{
-    switch (column) {
-    case Id: { // visible in a narrow panel, unlike the review column
-        const Verdict verdict = review(event).verdict;
-        const QString mark = verdict == Verdict::Accepted   ? QStringLiteral("✓ ")
-                             : verdict == Verdict::Rejected ? QStringLiteral("× ")
-                                                            : QString();
-        return mark + QString::number(event.id);
-    }
-    case Onset:
-    case Detection:
-    case End:
-        return timeText(sortValue(event, column));
-    case Confirmation:
-        return timeText(event.confirmSeconds);
-    case Utc:
-        return m_startUnixSeconds
-                   ? QString::fromStdString(formatUtc(toTenths(*m_startUnixSeconds + event.onsetSeconds)))
-                   : QString();
-    case Radio:
-        return radioText(event);
-    case Frequency:
-        return event.position.empty()
-                   ? QStringLiteral("–")
-                   : numberText(event.position.front(), hasBearing() ? decimalsFor(m_axes.front().step) : 2);
-    case Bearing:
-    case ThirdAxis:
-    case FourthAxis: {
-        const std::size_t axis = axisOf(Column(column));
-        return axis < event.position.size() ? numberText(event.position[axis], 1) : QStringLiteral("–");
-    }
-    case Drift:
-        return powerText(sortValue(event, Drift), 3);
-    case Statistic:
-        return numberText(event.statistic, 1);
-    case Snr:
-        return std::isfinite(event.snrDb) ? numberText(event.snrDb, 1) : QStringLiteral("–");
-    case Chance:
-        return std::isfinite(event.noiseProbability) ? chanceText(event.noiseProbability) : QStringLiteral("–");
-    case Window:
-        return std::isfinite(event.windowSeconds) ? QString::number(event.windowSeconds, 'g', 4) : QStringLiteral("–");
-    case Judged:
-        return reviewText(review(event));
-    case Class:
-        return labelText(review(event).label, longestNote);
-    case Note:
-        return labelText(review(event).note, longestNote);
-    default:
-        return stateText(event);
-    }
-}
-
-QVariant EventModel::data(const QModelIndex &index, int role) const
-{
-    if (!index.isValid() || index.row() >= rowCount())
-        return {};
-    const Event &event = m_events[std::size_t(index.row())];
-    switch (role) {
-    case Qt::DisplayRole:
-        return text(event, index.column());
-    case Qt::ForegroundRole:
-        return review(event).verdict == Verdict::Rejected
-                   ? QVariant(QGuiApplication::palette().brush(QPalette::PlaceholderText))
-                   : QVariant();
-    case Qt::ToolTipRole:
-        if (const int column = index.column();
-            column == Onset || column == Detection || column == Confirmation || column == End)
-            return secondsText(sortValue(event, column), 0.01);
-        return index.column() == Note && !text(event, Note).isEmpty() ? QVariant(asHtml(text(event, Note)))
-                                                                      : QVariant();
-    case SortRole:
-        return sortValue(*m_ordered.constFind(event.id), index.column());
-    case Qt::TextAlignmentRole:
-        return QVariant::fromValue(alignmentOf(index.column()));
-    case Qt::AccessibleTextRole:
-        return tr("%1: %2").arg(headerData(index.column(), Qt::Horizontal, role).toString(),
-                                text(event, index.column()));
-    default:
-        return {};
-    }
+    const Verdict verdict = review(event).verdict;
+    const QString mark = verdict == Verdict::Accepted   ? QStringLiteral("✓ ")
+                         : verdict == Verdict::Rejected ? QStringLiteral("× ")
+                                                        : QString();
+    return mark + QString::number(event.id);
 }
 
 bool EventModel::hasChances() const
@@ -269,9 +301,8 @@ bool EventModel::hasChances() const
 
 bool EventModel::hasWindows() const
 {
-    return std::any_of(m_events.begin(), m_events.end(), [this](const Event &event) {
-        return sortValue(event, Window) != sortValue(m_events.front(), Window);
-    });
+    return std::ranges::any_of(m_events,
+                               [&](const Event &event) { return windowOf(event) != windowOf(m_events.front()); });
 }
 
 bool EventModel::hasClasses() const
@@ -282,94 +313,26 @@ bool EventModel::hasClasses() const
 void EventModel::setStatisticUnit(const QString &unit)
 {
     m_statisticUnit = unit;
-    emit headerDataChanged(Qt::Horizontal, Statistic, Statistic);
+    layColumns();
 }
 
 void EventModel::setSnrUnit(const QString &unit)
 {
     m_snrUnit = unit;
-    emit headerDataChanged(Qt::Horizontal, Snr, Snr);
+    layColumns();
 }
 
 void EventModel::setAxes(const std::vector<Axis> &axes)
 {
     m_axes = axes;
-    emit headerDataChanged(Qt::Horizontal, 0, ColumnCount - 1);
+    layColumns();
 }
 
 void EventModel::setOrigin(std::optional<double> startUnixSeconds, double centreHz)
 {
     m_startUnixSeconds = startUnixSeconds;
     m_centreHz = centreHz;
-    emit headerDataChanged(Qt::Horizontal, 0, ColumnCount - 1);
-}
-
-QString EventModel::radioText(const Event &event) const
-{
-    return event.position.empty() ? QString() : numberText(m_centreHz + event.position.front(), 2);
-}
-
-QVariant EventModel::headerData(int section, Qt::Orientation orientation, int role) const
-{
-    if (orientation != Qt::Horizontal)
-        return {};
-    if (role == Qt::TextAlignmentRole)
-        return QVariant::fromValue(alignmentOf(section));
-    const auto unit = [this](std::size_t axis) { return labelText(m_axes[axis].unit, mostUnitLetters); };
-    const auto nameOf = [this](std::size_t axis) { return capitalised(labelText(m_axes[axis].name, mostUnitLetters)); };
-    const auto heading = [&](Column column) {
-        const std::size_t axis = axisOf(column);
-        if (!hasColumn(column))
-            return tr("Axis %1").arg(axis + 1);
-        if (unit(axis).isEmpty())
-            return nameOf(axis);
-        // As "f (Hz)", so that the times are in view; the tool tip has the whole name.
-        const bool isBrief = role == Qt::DisplayRole && m_axes.size() == 2 && nameOf(0).left(1) != nameOf(1).left(1);
-        return QStringLiteral("%1 (%2)").arg(isBrief ? nameOf(axis).left(1) : nameOf(axis), unit(axis));
-    };
-    struct Words {
-        QString heading, tip;
-    };
-    const auto own = [this](Column column) {
-        const TableColumn<Event> &one = fileColumn(column);
-        const bool isClock = column == Onset || column == Detection || column == End; // whose unit changes
-        const QString name = QString::fromStdString(one.heading);
-        const QString ownUnit = column == Statistic ? m_statisticUnit
-                                : column == Snr     ? m_snrUnit
-                                                    : QString::fromStdString(one.unit);
-        return Words{isClock || ownUnit.isEmpty() ? name : QStringLiteral("%1 (%2)").arg(name, ownUnit),
-                     QString::fromStdString(one.sentence)};
-    };
-    const auto atDetection = [&](Column column) {
-        return tr("%1 at detection").arg(hasColumn(column) ? nameOf(axisOf(column)) : tr("Position"));
-    };
-    const Words words[] = {
-        own(Id),
-        hasBearing() ? Words{heading(Frequency), atDetection(Frequency)}
-                     : Words{tr("f (Hz)"), tr("Frequency in the middle between onset and end")},
-        {heading(Bearing), atDetection(Bearing)},
-        {heading(ThirdAxis), atDetection(ThirdAxis)},
-        {heading(FourthAxis), atDetection(FourthAxis)},
-        {own(Onset).heading, tr("%1; s, from ten minutes on h:min:s").arg(own(Onset).tip)},
-        own(Detection),
-        {tr("Conf."), tr("Confirmed: time at which the track was confirmed")},
-        own(Statistic),
-        own(Snr),
-        own(Chance),
-        own(Window),
-        {tr("Onset (UTC)"), tr("Date and time of the onset")},
-        {tr("RF (Hz)"), tr("Radio frequency in the middle between onset and end: centre frequency plus offset")},
-        own(End),
-        hasBearing() ? Words{tr("Rate (%1/s)").arg(unit(0)), own(Drift).tip} : own(Drift),
-        {tr("State"), tr("Confirmed or tentative; open if the data ended before the track")},
-        {tr("Review"), tr("Accepted (Y), rejected (X) or undecided (U), or part of another event's signal")},
-        {tr("Class"), tr("Your class of the signal; 1 to 9 set it, Shift+U clears it")},
-        {tr("Note"), tr("Your note on the event; E edits it")}};
-    if (section < 0 || section >= ColumnCount)
-        return {};
-    if (role == Qt::DisplayRole || role == Qt::AccessibleTextRole)
-        return words[section].heading;
-    return role == Qt::ToolTipRole ? words[section].tip : QVariant();
+    layColumns();
 }
 
 } // namespace faintline

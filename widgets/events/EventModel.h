@@ -2,7 +2,8 @@
 
 #include "inspect/Review.h"
 
-#include <QAbstractTableModel>
+#include "widgets/table/ColumnModel.h"
+
 #include <QHash>
 
 #include <optional>
@@ -12,7 +13,7 @@
 namespace faintline {
 
 /// Table model of events. Numbers sort numerically (`SortRole`), and are shown with a suitable number of digits.
-class EventModel : public QAbstractTableModel
+class EventModel : public ColumnModel
 {
     Q_OBJECT
 
@@ -41,9 +42,8 @@ public:
         Note,
         ColumnCount
     };
-    static constexpr int SortRole = Qt::UserRole;
 
-    using QAbstractTableModel::QAbstractTableModel;
+    explicit EventModel(QObject *parent = nullptr);
 
     /// Events that were listed before keep their place in the order (`SortRole`), with the values that they had then.
     void setEvents(std::vector<Event> events);
@@ -59,8 +59,7 @@ public:
     void setAxes(const std::vector<Axis> &axes);
     bool hasBearing() const { return hasColumn(Bearing); }
     /// Whether a column of a position is on an axis of the frames.
-    bool hasColumn(Column column) const { return axisOf(column) < m_axes.size(); }
-    static std::size_t axisOf(Column column) { return std::size_t(column) - Frequency; }
+    bool hasColumn(Column column) const { return std::size_t(column - Frequency) < m_axes.size(); }
     /// Sets the recording's start time (UTC) and the frequency that corresponds to 0 Hz.
     void setOrigin(std::optional<double> startUnixSeconds, double centreHz);
     bool hasUtc() const { return m_startUnixSeconds.has_value(); }
@@ -81,16 +80,15 @@ public:
     /// "confirmed", "tentative", with ", open" if the data ended before the track.
     static QString stateText(const Event &event);
 
-    int rowCount(const QModelIndex &parent = {}) const override;
-    int columnCount(const QModelIndex &parent = {}) const override;
-    QVariant data(const QModelIndex &index, int role = Qt::DisplayRole) const override;
-    QVariant headerData(int section, Qt::Orientation orientation, int role = Qt::DisplayRole) const override;
-
 private:
-    QString text(const Event &event, int column) const;
-    QString radioText(const Event &event) const;
+    void layColumns();
+    std::vector<ShownColumn<Event>> columns() const;
+    ShownColumn<Event> ofFile(const char *name, std::function<QString(const Event &)> text,
+                              const std::optional<QString> &otherUnit = {}) const;
+    ShownColumn<Event> withTimes(ShownColumn<Event> column) const; ///< whose key is seconds
+    ShownColumn<Event> ofAxis(std::size_t axis) const;
+    QString idText(const Event &event) const;
     QString timeText(double seconds) const;
-    double sortValue(const Event &event, int column) const;
 
     std::vector<Event> m_events;
     QHash<int, Event> m_ordered; ///< with the values by which they are ordered

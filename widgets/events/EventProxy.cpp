@@ -4,11 +4,6 @@
 
 namespace faintline {
 
-EventProxy::EventProxy(QObject *parent) : QSortFilterProxyModel(parent)
-{
-    setSortRole(EventModel::SortRole);
-}
-
 void EventProxy::setFilter(const EventFilter &filter)
 {
     m_filter = filter;

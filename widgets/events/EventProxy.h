@@ -12,7 +12,7 @@ class EventProxy : public QSortFilterProxyModel
     Q_OBJECT
 
 public:
-    explicit EventProxy(QObject *parent = nullptr);
+    using QSortFilterProxyModel::QSortFilterProxyModel;
 
     void setFilter(const EventFilter &filter);
     const EventFilter &filter() const { return m_filter; }

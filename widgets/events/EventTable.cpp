@@ -12,7 +12,6 @@
 #include <QListWidget>
 #include <QStackedLayout>
 #include <QStyle>
-#include <QTableView>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -21,11 +20,10 @@ namespace faintline {
 
 EventTable::EventTable(QWidget *parent)
     : QWidget(parent), m_model(new EventModel(this)), m_proxy(new EventProxy(this)), m_filter(new QLineEdit),
-      m_table(new QTableView), m_card(new EventCard(*m_model)), m_count(new QLabel),
+      m_table(new ColumnTable(tr("Events"))), m_card(new EventCard(*m_model)), m_count(new QLabel),
       m_empty(new QLabel(tr("Events appear here after a recording has been analysed."))), m_unmatchedTitle(new QLabel),
       m_unmatched(new QListWidget)
 {
-    m_proxy->setSourceModel(m_model);
     m_filter->setPlaceholderText(tr("Filter: f>1000 stat>25 !rejected"));
     m_filter->setToolTip(
         tr("Conditions that must all hold: open, confirmed, tentative, accepted, rejected, unreviewed, merged, noted, "
@@ -92,11 +90,8 @@ void EventTable::setUnmatched(const QStringList &lines)
 
 void EventTable::setUpTable()
 {
-    m_table->setModel(m_proxy);
-    m_table->setSelectionBehavior(QAbstractItemView::SelectRows);
-    m_table->setSelectionMode(QAbstractItemView::ExtendedSelection);
-    m_table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    m_table->setShowGrid(false);
+    m_table->show(*m_model, m_proxy);
+    m_table->setFrameStyle(QFrame::StyledPanel | QFrame::Sunken);
     m_table->setAlternatingRowColors(true);
     m_table->setWordWrap(false);
     m_table->setTabKeyNavigation(false);
@@ -106,15 +101,11 @@ void EventTable::setUpTable()
         m_model->takeOrder();
         m_proxy->invalidate();
     });
-    m_table->verticalHeader()->hide();
-    m_table->verticalHeader()->setDefaultSectionSize(22);
-    m_table->horizontalHeader()->setHighlightSections(false);
     m_table->horizontalHeader()->setResizeContentsPrecision(20); // rows; numbers of all of them: widenColumns
     m_table->horizontalHeader()->setStretchLastSection(true);
     m_table->horizontalHeader()->setMinimumSectionSize(26);
     orderColumns();
     m_table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
-    m_table->setAccessibleName(tr("Events"));
     m_table->installEventFilter(this);
     for (const int column : {EventModel::Bearing, EventModel::ThirdAxis, EventModel::FourthAxis, EventModel::Chance,
                              EventModel::Window, EventModel::Utc, EventModel::Radio, EventModel::Class})
@@ -127,7 +118,6 @@ void EventTable::setUpTable()
         if (index.column() == EventModel::Note)
             emit noteRequested();
     });
-    m_table->setContextMenuPolicy(Qt::ActionsContextMenu);
 }
 
 void EventTable::setEvents(const std::vector<Event> &events)
@@ -223,8 +213,8 @@ void EventTable::setReviews(const std::vector<EventReview> &reviews)
 std::vector<int> EventTable::selectedEvents() const
 {
     std::vector<int> ids;
-    for (const QModelIndex &index : m_table->selectionModel()->selectedRows())
-        ids.push_back(m_model->events()[std::size_t(m_proxy->mapToSource(index).row())].id);
+    for (const int row : m_table->selectedSourceRows())
+        ids.push_back(m_model->events()[std::size_t(row)].id);
     std::sort(ids.begin(), ids.end());
     return ids;
 }
@@ -264,15 +254,7 @@ int EventTable::selectedEvent() const
     const QModelIndex index = m_table->currentIndex();
     if (!index.isValid() || !m_table->selectionModel()->isRowSelected(index.row()))
         return 0;
-    return m_model->events()[std::size_t(m_proxy->mapToSource(index).row())].id;
-}
-
-std::vector<int> EventTable::shownIds() const
-{
-    std::vector<int> ids;
-    for (int row = 0; row < m_proxy->rowCount(); ++row)
-        ids.push_back(m_model->events()[std::size_t(m_proxy->mapToSource(m_proxy->index(row, 0)).row())].id);
-    return ids;
+    return m_model->events()[std::size_t(m_table->sourceRow(index))].id;
 }
 
 void EventTable::setSelectedEvent(int id)

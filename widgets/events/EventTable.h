@@ -2,6 +2,8 @@
 
 #include "inspect/Review.h"
 
+#include "widgets/table/ColumnTable.h"
+
 #include <QString>
 #include <QWidget>
 
@@ -11,7 +13,6 @@
 class QLabel;
 class QLineEdit;
 class QListWidget;
-class QTableView;
 
 namespace faintline {
 
@@ -45,8 +46,7 @@ public:
 
     int selectedEvent() const;               ///< 0: none
     std::vector<int> selectedEvents() const; ///< all selected with Shift or Ctrl
-    std::vector<int> shownIds() const;       ///< in the order shown
-    QTableView *table() const { return m_table; }
+    ColumnTable *table() const { return m_table; }
     QLineEdit *filter() const { return m_filter; }
     EventCard &card() { return *m_card; } ///< of the selected event, below the table if there is room
 
@@ -86,7 +86,7 @@ private:
     EventModel *m_model;
     EventProxy *m_proxy;
     QLineEdit *m_filter;
-    QTableView *m_table;
+    ColumnTable *m_table;
     EventCard *m_card;
     QLabel *m_count;
     QLabel *m_empty;
