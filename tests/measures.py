@@ -221,7 +221,7 @@ def descendants(name, children):
 
 
 def tested_accessors():
-    """For app and widgets: getters whose name only units of tests use, as far as these mention the class or one that derives from it."""
+    """For app and widgets: public getters whose name only units of tests use, as far as these mention the class or one that derives from it."""
     words, children = defaultdict(set), defaultdict(set)
     for file, text in {**PRODUCT, **OTHERS, **TESTS}.items():
         words[unit(file)] |= set(re.findall(r"\w+", text))
@@ -229,14 +229,19 @@ def tested_accessors():
             children[parent].add(child)
     found = Counter()
     for file, text in inside("app/", "widgets/").items():
-        owner = None
+        owner, begun_as, is_public = None, "", False
         for line in text.split("\n") if file.endswith(".h") else ():
-            begun = re.match(r"(?:class|struct) (\w+)", line)
-            owner = begun.group(1) if begun else owner
-            getter = owner and GETTER.match(line)
+            begun = re.match(r"(class|struct) (\w+)", line)
+            begun_as, owner = begun.groups() if begun else (begun_as, owner)
+            is_public = begun_as == "struct" if begun else is_public
+            access = re.match(r"(public|protected|private|signals)\b", line)
+            is_public = access.group(1) == "public" if access else is_public
+            getter = owner and is_public and GETTER.match(line)
             if getter:
                 known = descendants(owner, children)
                 users = [user for user, used in words.items() if getter.group(1) in used and known & used and not user.startswith(unit(file))]
+                if begun_as == "struct" and re.search(rf"(?<!::)\b{getter.group(1)}\(", PRODUCT.get(unit(file) + ".cpp", "")):
+                    continue  # what has no private part is used by its own unit, too
                 found[file.split("/")[0]] += bool(users) and all(user.startswith("tests/") for user in users)
     return f"{found['app']}; {found['widgets']}"
 

@@ -55,11 +55,6 @@ LayerPlane &OutputLayers::plane() const
     return own == m_planes.end() ? *m_planes.front() : **own;
 }
 
-const LayerItem &OutputLayers::item() const
-{
-    return plane().item();
-}
-
 bool OutputLayers::isOffered(OutputLayer layer) const
 {
     if (layer == OutputLayer::Presence)

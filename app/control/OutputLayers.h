@@ -39,7 +39,6 @@ public:
     bool isCovering() const;
     QString heading() const; ///< heading of a picture that shows the layer
     bool isOverlay() const { return m_isOverlay; }
-    const LayerItem &item() const; ///< for the open source
 
     /// Values of a cell: exact for the cell under the cursor, elsewhere from the layer's picture.
     std::optional<CellReading> readingAt(const FramePlace &place) const;

@@ -34,8 +34,6 @@ public:
     static QStringList leftBehind(const QString &folder);
     static void discard(const QString &session);
 
-    bool isPending() const { return m_pause.isActive() || m_runner.isRunning(); }
-
 signals:
     void kept(const QString &session);
 

@@ -33,11 +33,8 @@ public:
 
     void start(const Lesson &lesson, int step = 0);
     bool isRunning() const { return m_step >= 0; }
-    bool isAtEnd() const { return m_isAtEnd; } ///< the page after the last step is shown
-    bool isReady() const { return m_isReady; } ///< the window shows the state of the step
     int step() const { return m_step; }
     const Lesson &lesson() const { return m_lesson; }
-    const LessonAnswers &answers() const { return m_answers; }
     /// Writes them as an HTML page. Throws Error.
     void writeAnswers(const QString &path, const QString &learner) const;
     LessonPanel &panel() { return *m_panel; }

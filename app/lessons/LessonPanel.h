@@ -39,7 +39,6 @@ public:
     void setLarge(bool isLarge);
 
     int step() const { return m_step; }
-    bool isAtEnd() const { return m_isAtEnd; }
     int choice() const; ///< -1: none yet
     bool isDone() const { return m_isDone; }
     QString text() const; ///< all visible text, for tests and screen readers
@@ -50,8 +49,7 @@ public:
     bool chooseByKey(const QKeyEvent &key);
     /// Height in which a presented step is seen whole, in the smallest text of presentations.
     int presentedHeight();
-    void takeKeys(); ///< the keyboard's focus
-    QButtonGroup *choices() const { return m_choices; }
+    void takeKeys();                                 ///< the keyboard's focus
     QLineEdit *learner() const { return m_learner; } ///< at the end; null before
 
     QSize sizeHint() const override { return {310, 420}; }

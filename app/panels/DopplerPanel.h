@@ -32,7 +32,6 @@ public:
 
     ChartPlot &frequencies() { return *m_frequencies; }
     ChartPlot &residuals() { return *m_residuals; }
-    QDoubleSpinBox *centre() const { return m_centre; }
 
     /// The extension selects the format: .json, or .csv with the points.
     void saveTo(const QString &path);

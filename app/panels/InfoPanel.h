@@ -20,8 +20,6 @@ public:
     InfoPanel(const Document &document, AnalysisController &controller, RecordingCheck &check,
               QWidget *parent = nullptr);
 
-    NoiseCheck *check() const { return m_check; }
-
     QSize sizeHint() const override { return {380, 220}; }
 
 private:

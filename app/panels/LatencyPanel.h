@@ -23,9 +23,6 @@ class LatencyPanel : public QWidget
 public:
     explicit LatencyPanel(const Document &document, QWidget *parent = nullptr);
 
-    ChartPlot *pdPlot() const { return m_pd; }
-    ChartPlot *histogramPlot() const { return m_histogram; }
-
     /// Why nothing can be measured for the open source; empty if it can.
     QString obstacle() const;
 

@@ -22,7 +22,6 @@ class LawPanel : public QWidget
 public:
     explicit LawPanel(const Document &document, QWidget *parent = nullptr);
 
-    int plotCount() const { return int(m_laws.size()); }
     LawPlot *plot(int number) const { return m_laws[std::size_t(number)].plot; }
 
 signals:

@@ -135,11 +135,6 @@ RotationSettings ListenDialog::rotation() const
     return {m_largest->value() * megabyte, m_longest->value() * 60.0};
 }
 
-QString ListenDialog::diskWords() const
-{
-    return m_disk->text();
-}
-
 void ListenDialog::showDisk()
 {
     const std::optional<double> room = freeBytes(folder());

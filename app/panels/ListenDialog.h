@@ -25,7 +25,6 @@ public:
     const LiveRun::OpenSource &source() const { return m_source; } ///< valid once accepted
     QString folder() const;
     RotationSettings rotation() const;
-    QString diskWords() const;
 
     void accept() override; ///< if something is missing, reports it and stays open
 

@@ -25,7 +25,6 @@ public:
     explicit SpectrumPanel(Document &document, QWidget *parent = nullptr);
 
     ChartPlot &plot() { return *m_plot; }
-    QDoubleSpinBox *calibration() const { return m_calibration; }
 
     QSize sizeHint() const override { return {360, 300}; }
 

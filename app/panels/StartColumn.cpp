@@ -31,6 +31,7 @@ StartColumn::StartColumn(QWidget *form, const QString &progressName, const QStri
     m_state->setWordWrap(true);
     m_state->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     m_note->setWordWrap(true);
+    m_note->setAccessibleName(tr("What is shown"));
     m_note->setContentsMargins(8, 6, 8, 2);
     m_note->hide();
     m_cancel->setEnabled(false);
@@ -79,11 +80,6 @@ void StartColumn::compare(const Experiments::Entry &shown, const std::optional<E
     m_note->setText(isOther ? tr("Shown: %1 (%2). The form below is for a new experiment.").arg(shown.name, values)
                             : QString());
     m_note->setVisible(isOther);
-}
-
-QString StartColumn::note() const
-{
-    return m_note->text();
 }
 
 void StartColumn::showState(const Experiments::Entry &entry)

@@ -24,8 +24,7 @@ public:
     void showState(const Experiments::Entry &entry);
     /// Says what is shown if it is not what the form would start. `ofForm`: nothing if the form is incomplete.
     void compare(const Experiments::Entry &shown, const std::optional<Experiment> &ofForm);
-    QString note() const; ///< what `compare` says; empty: nothing
-    void clearState();    ///< nothing is shown
+    void clearState(); ///< nothing is shown
 
 signals:
     void startRequested();

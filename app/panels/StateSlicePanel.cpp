@@ -45,7 +45,7 @@ StateSlicePanel::StateSlicePanel(Document &document, OutputLayers &layers, PingV
     : Panel(parent), m_document(document), m_layers(layers), m_viewports(viewports), m_rows(new QComboBox),
       m_columns(new QComboBox), m_others(new QComboBox), m_model(new QComboBox), m_sentence(panelSentence()),
       m_view(new WaterfallView(tr("States (nat)"))), m_tabs(new QTabBar), m_pane(new QWidget),
-      m_law(new LawPanel(document)), m_marks(std::make_unique<SliceMarks>(*m_view)),
+      m_law(new LawPanel(document)), m_marks(new SliceMarks(*m_view)),
       m_cut(
           this, &StateSlicePanel::question,
           [this](const auto &analysis, const StateCut::Wanted &wanted, const RunContext &context) {
@@ -78,8 +78,6 @@ StateSlicePanel::StateSlicePanel(Document &document, OutputLayers &layers, PingV
     connectDocument();
     fillAxes();
 }
-
-StateSlicePanel::~StateSlicePanel() = default;
 
 void StateSlicePanel::setSeen(bool isSeen)
 {

@@ -29,11 +29,9 @@ class StateSlicePanel : public Panel
 
 public:
     StateSlicePanel(Document &document, OutputLayers &layers, PingViewports &viewports, QWidget *parent = nullptr);
-    ~StateSlicePanel() override;
 
     WaterfallView *view() const { return m_view; }
     LawPanel &law() const { return *m_law; }
-    const SliceMarks &marks() const { return *m_marks; }
 
     /// Indices of the axes in `stateAxes`.
     void setAxes(int rows, int columns);
@@ -91,7 +89,7 @@ private:
     QWidget *m_pane; ///< the slice and its colour bar
     LawPanel *m_law;
     QBoxLayout *m_body;
-    std::unique_ptr<SliceMarks> m_marks;
+    SliceMarks *m_marks;
     Viewport m_viewport;
     std::pair<std::size_t, std::size_t> m_shownAxes{0, 0};
     Span m_givenRange;                     ///< colour range as set by this panel

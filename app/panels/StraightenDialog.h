@@ -30,9 +30,6 @@ public:
     StraightenDialog(const Document &document, const Event &event, Provenance &provenance, QWidget *parent = nullptr);
 
     QDoubleSpinBox *target() const { return m_target; }
-    QDoubleSpinBox *smoothing() const { return m_smoothing; }
-    QComboBox *method() const { return m_method; }
-    QComboBox *sampleType() const { return m_type; }
     ChartPlot &before() { return *m_before; }
     ChartPlot &after() { return *m_after; }
 

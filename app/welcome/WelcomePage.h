@@ -23,8 +23,6 @@ public:
 
     void setRecent(const QStringList &paths);
 
-    const std::vector<Card *> &cards() const { return m_cards; }
-
 signals:
     void openRequested();
     void pathChosen(const QString &path);

@@ -10,7 +10,6 @@
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QRegularExpression>
 #include <QToolButton>
 
 #include <algorithm>
@@ -82,13 +81,6 @@ QString LiveBar::pictureWords() const
     if (!m_document.viewport().isFollowing())
         return tr("held; listening continues");
     return tr("picture %1 behind the sound").arg(secondsText(std::max(m_longestDelay, m_delayBefore), 0.01));
-}
-
-QString LiveBar::text() const
-{
-    return m_label->text()
-        .remove(QRegularExpression(QStringLiteral("<[^>]*>")))
-        .replace(QStringLiteral("&nbsp;"), QStringLiteral(" "));
 }
 
 QString LiveBar::lostWords() const

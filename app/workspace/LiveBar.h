@@ -25,7 +25,6 @@ public:
     /// Whether the live input is played, and the delay of the sound.
     void setHearing(bool isHearing);
     void setSoundDelay(double seconds) { m_soundDelay = seconds; }
-    QString text() const;
 
 signals:
     void hearingRequested(bool isWanted);

@@ -126,11 +126,6 @@ void PingBar::setReading(const QString &words)
     fitReading();
 }
 
-QString PingBar::reading() const
-{
-    return m_words;
-}
-
 void PingBar::fitReading()
 {
     const QMargins margins = m_reading->contentsMargins();

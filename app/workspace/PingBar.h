@@ -26,7 +26,6 @@ public:
     /// "ping", "scan": what is stepped through.
     void setFrameName(const QString &name);
     void setReading(const QString &words);
-    QString reading() const;
 
 signals:
     void pingRequested(faintline::Index ping);

@@ -295,11 +295,6 @@ void PingBench::readCursor()
     read(m_viewports.along(), m_viewports.across());
 }
 
-QString PingBench::reading() const
-{
-    return m_bar->reading();
-}
-
 // ---- moving about --------------------------------------------------------------------------------------------------
 
 void PingBench::showPing(Index ping)

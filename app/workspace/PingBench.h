@@ -45,8 +45,6 @@ public:
     Place place() const override;
     void setPlace(const Place &place) override;
 
-    Index ping() const; ///< the ping shown
-
     /// The axes shown. Throws Error if the grid does not have both, or if they are the same.
     void setAxes(std::size_t along, std::size_t across);
     /// By their names, as on the command line.
@@ -54,7 +52,6 @@ public:
     /// Whether hidden axes are cut at the cursor; otherwise their maxima are shown.
     bool isSliced() const { return m_isSliced; }
     void setSliced(bool isSliced);
-    QString reading() const;
 
     void setEmptySentence(const QString &sentence) override;
     ViewState viewState() const override;
@@ -84,6 +81,7 @@ protected:
     int framesToPlay(int direction) const override;
 
 private:
+    Index ping() const; ///< the ping shown
     void layOut();
     void buildHistories();
     void linkViews();

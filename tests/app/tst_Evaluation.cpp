@@ -86,13 +86,13 @@ void tst_Evaluation::anExperimentGrowsAndEnds()
     QVERIFY(shown().state == Experiments::State::Done);
     QCOMPARE(shown().runsDone(), 3);
     QVERIFY(changed.count() >= 2);
-    QCOMPARE(m_window->panel<EvaluatePanel>().column().note(),
+    QCOMPARE(childOf<QLabel>(m_window->panel<EvaluatePanel>(), "What is shown").text(),
              QString()); // it is the form's own
     fillForm(4);
-    const QString note = m_window->panel<EvaluatePanel>().column().note();
+    const QString note = childOf<QLabel>(m_window->panel<EvaluatePanel>(), "What is shown").text();
     QVERIFY2(note.contains("3 runs, 0 … 3 dB, 100 T_FT, seed 1"), qPrintable(note));
     fillForm(3);
-    QCOMPARE(m_window->panel<EvaluatePanel>().column().note(), QString());
+    QCOMPARE(childOf<QLabel>(m_window->panel<EvaluatePanel>(), "What is shown").text(), QString());
     const Chart &chart = m_window->panel<EvaluatePanel>().pd().chart();
     QCOMPARE(chart.curves.size(), std::size_t(3)); // two measured, Marcum's Q
     QVERIFY(
@@ -195,7 +195,7 @@ void tst_Evaluation::curvesComeBackFromFiles()
     QCOMPARE(replay.readAllStandardOutput(), QByteArray("curve.csv: the same bytes\n"));
     fillForm(7);
     m_window->panel<EvaluatePanel>().show(list.importFile(m_folder.filePath("runs.jsonl")));
-    QCOMPARE(m_window->panel<EvaluatePanel>().column().note(),
+    QCOMPARE(childOf<QLabel>(m_window->panel<EvaluatePanel>(), "What is shown").text(),
              QString()); // the form shows its values
     QCOMPARE(m_window->panel<EvaluatePanel>().pd().chart().curves.size(), before.curves.size());
     QVERIFY(shown().campaign->outcomes == m_window->experiments().entry(id)->campaign->outcomes);
@@ -224,7 +224,7 @@ void tst_Evaluation::theFormShowsTheOpenedExperiment()
         writeFile(m_folder, "own.json", QByteArray::fromStdString(toJson(lines).dump()))));
     QVERIFY(idle());
     QVERIFY(form.experiment({}) == lines);
-    QCOMPARE(m_window->panel<EvaluatePanel>().column().note(), QString());
+    QCOMPARE(childOf<QLabel>(m_window->panel<EvaluatePanel>(), "What is shown").text(), QString());
     const auto hasBox = [&] {
         return std::ranges::any_of(form.findChildren<QCheckBox *>(),
                                    [](const QCheckBox *box) { return box->text() == "one frame" && box->isChecked(); });

@@ -7,6 +7,7 @@
 #include "app/workspace/Workbench.h"
 #include "exchange/writeEvents.h"
 #include "plan/slopeUnit.h"
+#include "support/find.h"
 #include "support/test.h"
 #include "widgets/base/diskRoom.h"
 #include "widgets/events/EventTable.h"
@@ -66,9 +67,9 @@ void tst_Live::showsAndRecords()
     QVERIFY(document.viewport().isFollowing());
     QVERIFY(std::abs(document.viewport().time().high - document.live().time.last()) < 1.0);
     QVERIFY(document.shownEvents().size() >= 4);
-    QVERIFY(window->listening().bar().text().contains(QStringLiteral("UTC"))
-            || window->listening().bar().text().contains('Z'));
-    QVERIFY(window->listening().bar().text().contains(QStringLiteral("no sample lost")));
+    QVERIFY(plainText(childOf<QLabel>(window->listening().bar(), "Live")).contains(QStringLiteral("UTC"))
+            || plainText(childOf<QLabel>(window->listening().bar(), "Live")).contains('Z'));
+    QVERIFY(plainText(childOf<QLabel>(window->listening().bar(), "Live")).contains(QStringLiteral("no sample lost")));
 
     QSignalSpy ended(&window->listening().run(), &LiveRun::ended);
     feeder.allowAll();
@@ -181,10 +182,11 @@ void tst_Live::asksWhenAnotherFileBegins()
     kind->setCurrentIndex(kind->findText("Pipe or file")); // whose header would tell its rate
     const double room = *freeBytes(folder.path()) / 1e9;
     static const QRegularExpression free(QStringLiteral("([0-9.]+) GB free$"));
-    QTRY_VERIFY(free.match(dialog.diskWords()).hasMatch());
-    QVERIFY(std::abs(free.match(dialog.diskWords()).captured(1).toDouble() - room) < 0.1 * room);
+    QTRY_VERIFY(free.match(dialog.findChild<QLabel *>("disk")->text()).hasMatch());
+    QVERIFY(std::abs(free.match(dialog.findChild<QLabel *>("disk")->text()).captured(1).toDouble() - room)
+            < 0.1 * room);
     kind->setCurrentIndex(kind->findText("UDP")); // 48 kHz of 16 bits
-    QTRY_VERIFY(dialog.diskWords().contains(QStringLiteral("GB free, full in ")));
+    QTRY_VERIFY(dialog.findChild<QLabel *>("disk")->text().contains(QStringLiteral("GB free, full in ")));
 }
 
 void tst_Live::changesTheThreshold()
@@ -285,8 +287,9 @@ void tst_Live::tellsWhatIsLost()
     QTRY_COMPARE_WITH_TIMEOUT(notices.count(), 2, patience);
     QVERIFY2(window->messages().text().contains(QStringLiteral("The receiver is back.")),
              qPrintable(window->messages().text()));
-    QTRY_VERIFY2(window->listening().bar().text().contains(QStringLiteral("1.500 s of samples lost in 1 gap")),
-                 qPrintable(window->listening().bar().text()));
+    QTRY_VERIFY2(plainText(childOf<QLabel>(window->listening().bar(), "Live"))
+                     .contains(QStringLiteral("1.500 s of samples lost in 1 gap")),
+                 qPrintable(plainText(childOf<QLabel>(window->listening().bar(), "Live"))));
     QCOMPARE(window->document().live().lostCount, Index(1500));
     window->listening().run().stop();
     QTRY_VERIFY_WITH_TIMEOUT(!window->listening().run().isRunning(), patience);

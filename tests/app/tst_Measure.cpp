@@ -2,7 +2,9 @@
 
 #include "app/openWindow.h"
 #include "app/workspace/Workbench.h"
+#include "support/find.h"
 #include "support/test.h"
+#include "widgets/waterfall/OverlayItem.h"
 #include "widgets/waterfall/WaterfallView.h"
 
 #include <QAction>
@@ -13,6 +15,11 @@
 
 using namespace faintline;
 using namespace faintline::test;
+
+static QString boxText(const WaterfallView &view)
+{
+    return itemOf<OverlayItem>(view).selectionText;
+}
 
 class tst_Measure : public QObject
 {
@@ -68,18 +75,18 @@ private slots:
         QTest::keyClick(&input(), Qt::Key_M);
         QVERIFY(input().isMeasuring() && output().isMeasuring());
         drag(input(), {5.0, 138.0}, {55.0, 162.0});
-        QTRY_VERIFY_WITH_TIMEOUT(input().selectionText().contains("area SNR"), patience);
-        QCOMPARE(output().selectionText().section('\n', -1), input().selectionText().section('\n', -1));
+        QTRY_VERIFY_WITH_TIMEOUT(boxText(input()).contains("area SNR"), patience);
+        QCOMPARE(boxText(output()).section('\n', -1), boxText(input()).section('\n', -1));
         // 100 windows: the line's beat with the noise, and the noise of 12 cells, leave √(32/100) of 10.
-        const double db = input().selectionText().section("area SNR ", 1).section(' ', 0, 0).toDouble();
+        const double db = boxText(input()).section("area SNR ", 1).section(' ', 0, 0).toDouble();
         QVERIFY2(std::abs(std::pow(10.0, 0.1 * db) - 10.0) < 4.0 * std::sqrt(32.0 / 100.0),
-                 qPrintable(input().selectionText()));
+                 qPrintable(boxText(input())));
         for (const char *word : {"Δt", "Δf", "Hz/s", "peak", "mean"})
-            QVERIFY2(input().selectionText().contains(QString::fromUtf8(word)), word);
+            QVERIFY2(boxText(input()).contains(QString::fromUtf8(word)), word);
         drag(input(), {5.0, 300.0}, {55.0, 302.0});
-        QVERIFY(!input().selectionText().contains("SNR 10"));
+        QVERIFY(!boxText(input()).contains("SNR 10"));
         QTest::keyClick(&input(), Qt::Key_Escape);
-        QVERIFY(input().selectionText().isEmpty());
+        QVERIFY(boxText(input()).isEmpty());
     }
 
     void sidebandsAreInBothPictures()

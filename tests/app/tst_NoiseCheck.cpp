@@ -1,6 +1,7 @@
 #include "app/openWindow.h"
 #include "app/panels/InfoPanel.h"
 #include "app/panels/NoiseCheck.h"
+#include "support/find.h"
 #include "support/test.h"
 #include "widgets/plot/ExceedancePlot.h"
 
@@ -26,7 +27,7 @@ private slots:
     {
         const auto window = newWindow();
         QVERIFY(openAndSettle(*window, m_scene));
-        NoiseCheck &check = *window->panel<InfoPanel>().check();
+        NoiseCheck &check = childOf<NoiseCheck>(window->panel<InfoPanel>());
         QVERIFY(settle(window->recordingCheck()));
         QVERIFY(label(check, "noiseWarning")->isHidden()); // white noise follows its law
         button(check, "countOnSurrogates")->click();
@@ -43,7 +44,7 @@ private slots:
     {
         const auto window = newWindow();
         QVERIFY(openAndSettle(*window, m_scene));
-        NoiseCheck &check = *window->panel<InfoPanel>().check();
+        NoiseCheck &check = childOf<NoiseCheck>(window->panel<InfoPanel>());
         QVERIFY(settle(window->recordingCheck()));
         check.toggle();
         QVERIFY(isBusy(window->recordingCheck()));
@@ -56,7 +57,7 @@ private slots:
     {
         const auto window = newWindow();
         QVERIFY(openAndSettle(*window, m_scene));
-        NoiseCheck &check = *window->panel<InfoPanel>().check();
+        NoiseCheck &check = childOf<NoiseCheck>(window->panel<InfoPanel>());
         QVERIFY(settle(window->recordingCheck()));
         const double before = window->document().analysis()->threshold;
         SurrogateCount count;

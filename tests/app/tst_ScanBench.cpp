@@ -2,6 +2,7 @@
 
 #include "app/control/OutputLayers.h"
 #include "app/openWindow.h"
+#include "app/ping.h"
 #include "app/workspace/AxesBar.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
@@ -9,6 +10,7 @@
 #include "frames/pictureCuts.h"
 #include "inspect/outputLayers.h"
 #include "support/errors.h"
+#include "support/find.h"
 #include "support/test.h"
 #include "widgets/pings/PingMap.h"
 #include "widgets/waterfall/LayerItem.h"
@@ -52,7 +54,7 @@ class tst_ScanBench : public QObject
                                           const std::vector<std::optional<Index>> &cuts = {}) const
     {
         const Grid &grid = analysis().grid();
-        const auto row = analysis().statistic->row(0, bench().ping());
+        const auto row = analysis().statistic->row(0, pingShown(*m_window));
         std::vector<std::uint8_t> map(std::size_t(grid.axes[along].count * grid.axes[across].count), 0);
         for (Index cell = 0; cell < grid.size(); ++cell) {
             const std::vector<Index> at = grid.coordinates(cell);
@@ -98,8 +100,8 @@ private slots:
         QVERIFY(bench().isVisible() && bar().isVisible());
         QCOMPARE(bar().pairs()->count(), 6);
         QCOMPARE(bar().pairs()->itemText(2), QString::fromUtf8("range × Doppler"));
-        QVERIFY2(bench().reading().startsWith("scan "), qPrintable(bench().reading()));
-        QVERIFY2(bench().reading().contains("(elevation "), qPrintable(bench().reading()));
+        QVERIFY2(readingOf(bench()).startsWith("scan "), qPrintable(readingOf(bench())));
+        QVERIFY2(readingOf(bench()).contains("(elevation "), qPrintable(readingOf(bench())));
         QVERIFY(shownMap() == expectedMap(0, 1));
         QVERIFY(bench().alongHistory()->picture() == analysis().statisticAlong[0]);
     }
@@ -168,8 +170,8 @@ private slots:
         boxes()[2]->setValue(int(other));
         QCOMPARE(bench().viewports().place().position[2], axes[2].value(double(other)));
         QVERIFY(shownMap() == expectedMap(0, 1, {{}, {}, other, doppler}));
-        QVERIFY2(bench().reading().contains(QString::fromUtf8("(elevation %1°").arg(axes[2].value(double(other)))),
-                 qPrintable(bench().reading()));
+        QVERIFY2(readingOf(bench()).contains(QString::fromUtf8("(elevation %1°").arg(axes[2].value(double(other)))),
+                 qPrintable(readingOf(bench())));
         // A click within the slice stays in it.
         WaterfallView &plane = *bench().output()->plane();
         QTest::mouseClick(plane.canvas(), Qt::LeftButton, {}, plane.canvas()->rect().center());
@@ -188,13 +190,13 @@ private slots:
         QVERIFY(settle(layers));
         QVERIFY2(bench().output()->plane()->title().text().contains("elevation rate"),
                  qPrintable(bench().output()->plane()->title().text())); // along: the first of the pair
-        const auto picture = layers.item().picture();
+        const auto picture = itemOf<LayerItem>(*bench().output()->plane()).picture();
         QVERIFY(picture);
         QCOMPARE(picture->rows, Index(4));
         QCOMPARE(picture->columns, Index(6));
         const auto shared = m_window->document().analysis();
         LayerReplay replay(shared);
-        const CellLayers &exact = replay.at(bench().ping());
+        const CellLayers &exact = replay.at(pingShown(*m_window));
         const CellsBehind cells(analysis().grid(), bench().viewports().plane());
         for (Index row = 0; row < cells.rows(); ++row)
             for (Index column = 0; column < cells.columns(); ++column) {
@@ -257,8 +259,8 @@ private slots:
             settings = preset("radar").settings; // few states
         }));
         QVERIFY(!bar().isVisible());
-        QVERIFY(bench().reading().startsWith("ping "));
-        QVERIFY(!bench().reading().contains("("));
+        QVERIFY(readingOf(bench()).startsWith("ping "));
+        QVERIFY(!readingOf(bench()).contains("("));
         QCOMPARE(bench().viewports().plane(), FramePlane());
         writeFile(m_folder, "line.json",
                   R"({"kind": "lines", "sampleRateHz": 500, "durationSeconds": 10, "lines": []})");

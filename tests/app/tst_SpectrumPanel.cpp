@@ -58,7 +58,7 @@ private slots:
         QVERIFY(settle(panel));
         QVERIFY(std::abs(peakOf(panel, 1).y - overNoise - 10.0 * std::log10(2.0 * 0.01 / 500.0)) < 1.0);
         const double uncalibrated = peakOf(panel, 1).y;
-        panel.calibration()->setValue(160.0);
+        panel.findChild<QDoubleSpinBox *>()->setValue(160.0);
         QVERIFY(settle(panel));
         QVERIFY(std::abs(peakOf(panel, 1).y - uncalibrated - 160.0) < 1e-9);
     }

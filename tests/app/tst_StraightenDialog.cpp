@@ -114,9 +114,9 @@ void tst_StraightenDialog::theTargetMovesTheLine()
 /// The same file as the library's; the line stands out as with a shift.
 void tst_StraightenDialog::resamplesInstead()
 {
-    QCOMPARE(dialog()->method()->currentIndex(), int(Straightening::Shift));
+    QCOMPARE(dialog()->findChild<QComboBox *>()->currentIndex(), int(Straightening::Shift));
     dialog()->target()->setValue(106.0);
-    dialog()->method()->setCurrentIndex(int(Straightening::Resample));
+    dialog()->findChild<QComboBox *>()->setCurrentIndex(int(Straightening::Resample));
     QVERIFY(settle(*dialog()));
     const auto &points = dialog()->after().chart().curves.at(0).points;
     const auto peak =
@@ -133,7 +133,7 @@ void tst_StraightenDialog::resamplesInstead()
     QVERIFY(readBytes(path.toStdString()) == readBytes(expected));
     const Json provenance = parseJson(readBytes(path.toStdString() + ".provenance.json").toStdString(), "provenance");
     QCOMPARE(provenance["straighten"]["method"].get<std::string>(), std::string("resample"));
-    dialog()->method()->setCurrentIndex(int(Straightening::Shift));
+    dialog()->findChild<QComboBox *>()->setCurrentIndex(int(Straightening::Shift));
     QVERIFY(settle(*dialog()));
 }
 

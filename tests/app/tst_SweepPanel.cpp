@@ -2,6 +2,7 @@
 #include "app/panels/StartColumn.h"
 #include "app/panels/SweepForm.h"
 #include "app/panels/SweepPanel.h"
+#include "support/find.h"
 #include "support/test.h"
 #include "widgets/plot/ChartPlot.h"
 
@@ -50,12 +51,14 @@ private slots:
         const Experiments::Entry *entry = window.experiments().entry(panel.shown());
         QCOMPARE(entry->state, Experiments::State::Done);
         QCOMPARE(entry->runsDone(), 12);
-        QCOMPARE(panel.column().note(), QString()); // it is the form's own
+        QCOMPARE(childOf<QLabel>(panel, "What is shown").text(), QString()); // it is the form's own
         panel.form().setRange(6.0, 15.0, 3, false);
-        QVERIFY2(panel.column().note().contains("decide.thresholdNats = 5 … 15, 4 trials, 3 dB, 10 s, seed 1"),
-                 qPrintable(panel.column().note()));
+        QVERIFY2(childOf<QLabel>(panel, "What is shown")
+                     .text()
+                     .contains("decide.thresholdNats = 5 … 15, 4 trials, 3 dB, 10 s, seed 1"),
+                 qPrintable(childOf<QLabel>(panel, "What is shown").text()));
         panel.show(panel.shown()); // as from the list of experiments: the form shows its values
-        QCOMPARE(panel.column().note(), QString());
+        QCOMPARE(childOf<QLabel>(panel, "What is shown").text(), QString());
         QCOMPARE(panel.tradeOff().chart().curves.front().points.size(), std::size_t(3));
         QTRY_COMPARE(panel.cost().chart().curves.size(), std::size_t(1));
 

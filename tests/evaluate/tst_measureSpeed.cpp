@@ -49,7 +49,6 @@ private slots:
         QVERIFY(fastRuns >= 4 && slowRuns >= 4); // once to warm up, then each round
         QCOMPARE(result.ratios.size(), std::size_t(2));
         QVERIFY(result.ratios[1].measured > 0.0);
-        QVERIFY(!result.meetsGoals()); // nothing is a thousand million times as fast
         QVERIFY(speedText(result).find("MISSED") != std::string::npos);
         const Json json = Json::parse(speedJson({result}, {3, 1e-4}));
         QCOMPARE(json["kernels"][0]["ratios"][0]["met"].get<bool>(), false);

@@ -7,6 +7,7 @@
 #include "app/panels/StateSlicePanel.h"
 #include "app/panels/WhyPanel.h"
 #include "app/workspace/Workbench.h"
+#include "support/find.h"
 #include "support/test.h"
 #include "walks/Walk.h"
 #include "widgets/plot/LawPlot.h"
@@ -28,7 +29,7 @@ LessonGuide &guide(Walk &walk)
 void waitForStep(Walk &walk, int step)
 {
     walk.waitUntil(QStringLiteral("step %1").arg(step + 1),
-                   [&] { return guide(walk).step() == step && guide(walk).isReady(); });
+                   [&] { return guide(walk).step() == step && isReady(guide(walk)); });
     walk.waitForResults();
 }
 
@@ -113,7 +114,7 @@ void goThrough(Walk &walk)
     walk.click("Next lesson");
     walk.click("Discard"); // the law that was dragged
     walk.waitUntil("the next lesson",
-                   [&] { return guide(walk).isReady() && guide(walk).panel().text().contains("An assumption"); });
+                   [&] { return isReady(guide(walk)) && guide(walk).panel().text().contains("An assumption"); });
     walk.click("Leave");
     walk.waitUntil("no lesson", [&] { return !guide(walk).isRunning() && !guide(walk).dock()->isVisible(); });
 }

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "widgets/base/Span.h"
+
 #include <qwt_plot.h>
+#include <qwt_scale_div.h>
 
 #include <QImage>
 #include <QPolygon>
@@ -14,6 +17,12 @@ inline void show(QWidget &view, const QSize &size = {640, 360})
     view.resize(size);
     view.show();
     QVERIFY(QTest::qWaitForWindowExposed(&view));
+}
+
+/// What an axis of a plot spans.
+inline Span spanOf(const QwtPlot &plot, QwtAxisId axis)
+{
+    return {plot.axisScaleDiv(axis).lowerBound(), plot.axisScaleDiv(axis).upperBound()};
 }
 
 /// What is on a plot's canvas.

@@ -34,7 +34,7 @@ private slots:
         QCOMPARE(test::colourAt(wide, view.canvasPosition(1.3, 1.0)), curve(0));
         QCOMPARE(test::colourAt(wide, view.canvasPosition(1.7, 1.0)), curve(1));
         view.setLeastHeight(40.0);
-        QVERIFY(view.ySpan().contains(40.0));
+        QVERIFY(test::spanOf(view, QwtAxis::YLeft).contains(40.0));
     }
 
     void barsAreAsHighAsTheirValues()
@@ -64,7 +64,7 @@ private slots:
         BarPlot view;
         view.setBars({{"all", 0, {nan, 5.0, nan}}}, 0);
         test::show(view);
-        QCOMPARE(view.ySpan(), (Span{0.0, 6.25}));
+        QCOMPARE(test::spanOf(view, QwtAxis::YLeft), (Span{0.0, 6.25}));
         QCOMPARE(heightOf(view, 0, curve(0)), 0);
         QVERIFY(heightOf(view, 1, curve(0)) > 50);
     }
@@ -74,11 +74,12 @@ private slots:
         BarPlot view;
         for (const double highest : {1e-9, 0.25, 1.0, 3e6}) {
             view.setBars({{"a", 0, {0.5 * highest}}, {"b", 1, {highest, 0.0}}}, 0);
-            QVERIFY(view.ySpan().high > highest && view.ySpan().high < 2.0 * highest);
-            QCOMPARE(view.ySpan().low, 0.0);
+            QVERIFY(test::spanOf(view, QwtAxis::YLeft).high > highest
+                    && test::spanOf(view, QwtAxis::YLeft).high < 2.0 * highest);
+            QCOMPARE(test::spanOf(view, QwtAxis::YLeft).low, 0.0);
         }
         view.setBars({{"a", 0, {0.0, 0.0}}}, 0); // nothing counted yet
-        QCOMPARE(view.ySpan(), (Span{0.0, 1.0}));
+        QCOMPARE(test::spanOf(view, QwtAxis::YLeft), (Span{0.0, 1.0}));
     }
 
     void aMillionPlacesAreDrawn()
@@ -88,7 +89,8 @@ private slots:
         values[500000] = 100.0;
         view.setBars({{"all", 0, std::move(values)}}, 1);
         test::show(view);
-        QVERIFY(view.xSpan().contains(1.0) && view.xSpan().contains(1e6));
+        QVERIFY(test::spanOf(view, QwtAxis::XBottom).contains(1.0)
+                && test::spanOf(view, QwtAxis::XBottom).contains(1e6));
         const QImage image = test::imageOf(view);
         QVERIFY(test::coloursOf(image).size() > 2); // bars so thin are blended with what is between them
         const QRgb low = test::colourAt(image, view.canvasPosition(2e5, 0.5));

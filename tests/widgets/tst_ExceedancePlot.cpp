@@ -70,12 +70,13 @@ private slots:
         QSignalSpy changed(m_plot.get(), &ExceedancePlot::unitChanged);
         m_plot->setThreshold(5.0);
         m_plot->setUnit(ExceedancePlot::Unit::Nats);
-        QCOMPARE(m_plot->thresholdText(), QString("5.00 nat"));
+        QCOMPARE(m_plot->accessibleDescription(), QString("Threshold at 5.00 nat"));
         m_plot->setUnit(ExceedancePlot::Unit::PfaPerCell);
-        QCOMPARE(m_plot->thresholdText(), QString("Pfa 0.025 per cell")); // 0.3 e^{-2.5}
+        QCOMPARE(m_plot->accessibleDescription(), QString("Threshold at Pfa 0.025 per cell")); // 0.3 e^{-2.5}
         m_plot->setUnit(ExceedancePlot::Unit::FalseAlarmsPerHour);
-        QCOMPARE(m_plot->thresholdText(),
-                 QString("1000 false alarms/h")); // 1e-3 events per cell and frame, 1e6 of these in an hour
+        QCOMPARE(
+            m_plot->accessibleDescription(),
+            QString("Threshold at 1000 false alarms/h")); // 1e-3 events per cell and frame, 1e6 of these in an hour
         QCOMPARE(changed.count(), 3);
     }
 

@@ -26,15 +26,16 @@ private slots:
 
     void keysChooseABar()
     {
-        QCOMPARE(m_plot->selected(), 0);
-        QTest::keyClick(m_plot.get(), Qt::Key_Left);
-        QCOMPARE(m_plot->selected(), 0); // the middle is the first
-        for (int change = 1; change <= 3; ++change) {
-            QTest::keyClick(m_plot.get(), Qt::Key_Right);
-            QCOMPARE(m_plot->selected(), change);
+        for (const int rights : {0, 1, 2, 3, 4}) { // after the law's two bars one more stands ready, the last
+            init();
+            QTest::keyClick(m_plot.get(), Qt::Key_Left); // the middle is the first
+            for (int i = 0; i < rights; ++i)
+                QTest::keyClick(m_plot.get(), Qt::Key_Right);
+            const std::vector<double> law = raised();
+            const double before[] = {0.5, 0.2, 0.05, 0.0};
+            for (std::size_t change = 0; change < law.size(); ++change)
+                QCOMPARE(law[change] > before[change], int(change) == std::min(rights, 3));
         }
-        QTest::keyClick(m_plot.get(), Qt::Key_Right);
-        QCOMPARE(m_plot->selected(), m_plot->reach()); // and the one that stands ready the last
     }
 
     void keysChangeIt_data()
@@ -77,7 +78,6 @@ private slots:
         QSignalSpy dragged(m_plot.get(), &LawPlot::lawDragged);
         QSignalSpy requested(m_plot.get(), &LawPlot::lawRequested);
         QTest::mousePress(m_plot->canvas(), Qt::LeftButton, {}, at(-1.0, 0.2)); // the mirror image of h(1)
-        QCOMPARE(m_plot->selected(), 1);
         move(at(-1.0, 0.3));
         QVERIFY(dragged.size() >= 1);
         QVERIFY(std::abs(m_plot->law()[1] - 0.3) < 0.01); // a pixel is 0.005
@@ -120,28 +120,42 @@ private slots:
         QTest::mouseRelease(m_plot->canvas(), Qt::LeftButton, {}, at(0.0, 0.8));
         QCOMPARE(requested.size(), 0);
         QCOMPARE(m_plot->law(), (std::vector<double>{0.5, 0.2, 0.05}));
-        QCOMPARE(m_plot->reach(), 2); // and none stands ready
+    }
+
+    void aBarMoreThanTheLawHas_data()
+    {
+        QTest::addColumn<std::vector<double>>("law");
+        QTest::addColumn<int>("mostChange");
+        QTest::addColumn<std::size_t>("bars");
+        QTest::newRow("one more") << std::vector{0.5, 0.2, 0.05} << 6 << std::size_t(4);
+        QTest::newRow("no rate can change by more") << std::vector{0.5, 0.2, 0.05} << 2 << std::size_t(3);
+        QTest::newRow("of one") << std::vector{1.0} << 6 << std::size_t(2);
     }
 
     void aBarMoreThanTheLawHas()
     {
-        QCOMPARE(m_plot->reach(), 3);
-        m_plot->setLaw({0.5, 0.2, 0.05}, 2);
-        QCOMPARE(m_plot->reach(), 2); // no rate can change by more
-        m_plot->setLaw({1.0}, 6);
-        QCOMPARE(m_plot->reach(), 1);
-        QSignalSpy requested(m_plot.get(), &LawPlot::lawRequested);
-        QTest::keyClick(m_plot.get(), Qt::Key_Right);
-        QTest::keyClick(m_plot.get(), Qt::Key_Up, Qt::ShiftModifier);
-        const auto law = requested.front().front().value<std::vector<double>>();
-        QCOMPARE(law.size(), std::size_t(2));
-        QVERIFY(std::abs(law[0] - 0.8) < 1e-12 && std::abs(law[1] - 0.1) < 1e-12);
+        QFETCH(std::vector<double>, law);
+        QFETCH(int, mostChange);
+        m_plot->setLaw(law, mostChange);
+        for (int i = 0; i < 6; ++i)
+            QTest::keyClick(m_plot.get(), Qt::Key_Right);
+        const std::vector<double> after = raised();
+        QTEST(after.size(), "bars");
+        QVERIFY(std::abs(sum(after) - 1.0) < 1e-12);
+        QVERIFY(after.back() > (after.size() > law.size() ? 0.0 : law.back()));
     }
 
 private:
     static double sum(const std::vector<double> &law)
     {
         return law.front() + 2.0 * std::accumulate(law.begin() + 1, law.end(), 0.0);
+    }
+    /// The law that is asked for when the chosen bar is raised by key.
+    std::vector<double> raised()
+    {
+        QSignalSpy requested(m_plot.get(), &LawPlot::lawRequested);
+        QTest::keyClick(m_plot.get(), Qt::Key_Up, Qt::ShiftModifier);
+        return requested.value(0).value(0).value<std::vector<double>>();
     }
     QPoint at(double change, double probability) const
     {

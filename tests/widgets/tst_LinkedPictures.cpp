@@ -3,6 +3,7 @@
 
 #include "pictures.h"
 #include "pixels.h"
+#include "support/find.h"
 #include "widgets/base/Theme.h"
 #include "widgets/waterfall/ColourBar.h"
 
@@ -50,7 +51,7 @@ private slots:
         QVERIFY(unionOfRanges().high > m_pictures->at(0).automaticRange().high + 5.0);
         for (int place = 0; place < 3; ++place)
             QVERIFY(m_pictures->at(place).range() == unionOfRanges());
-        QVERIFY(m_pictures->bar().range() == unionOfRanges());
+        QVERIFY(test::childOf<ColourBar>(*m_pictures).range() == unionOfRanges());
     }
 
     void anyPictureAndTheBarChangeTheRangeOfAll()
@@ -58,7 +59,7 @@ private slots:
         m_pictures->at(1).setRange(-3.0, 12.0);
         for (int place = 0; place < 3; ++place)
             QVERIFY((m_pictures->at(place).range() == Span{-3.0, 12.0}));
-        emit m_pictures->bar().rangeRequested(0.0, 25.0);
+        emit test::childOf<ColourBar>(*m_pictures).rangeRequested(0.0, 25.0);
         for (int place = 0; place < 3; ++place)
             QVERIFY((m_pictures->at(place).range() == Span{0.0, 25.0}));
         m_viewport.zoomTo({50.0, 60.0}, {103.0, 113.0}); // stays
@@ -134,7 +135,7 @@ private slots:
         QVERIFY(m_pictures->at(0).isVisible() && !m_pictures->at(1).isVisible());
         QVERIFY(m_pictures->at(0).picture() && !m_pictures->at(1).picture());
         m_pictures->setCount(0);
-        QVERIFY(!m_pictures->bar().isVisible());
+        QVERIFY(!test::childOf<ColourBar>(*m_pictures).isVisible());
     }
 
     void colourMapIsShared()

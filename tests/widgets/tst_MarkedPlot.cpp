@@ -169,7 +169,7 @@ private slots:
         const auto &ticks = m_view->axisScaleDiv(QwtAxis::YLeft).ticks(QwtScaleDiv::MajorTick);
         QVERIFY2(ticks.size() <= 30, qPrintable(QString::number(ticks.size())));
         QVERIFY(!m_view->grab().isNull());
-        QCOMPARE(m_view->ySpan(), y);
+        QCOMPARE(test::spanOf(*m_view, QwtAxis::YLeft), y);
     }
 
     void aClickTellsItsPlace()

@@ -42,8 +42,9 @@ private slots:
         QVERIFY(view->marks()[0].words.contains("6.91"));
         QCOMPARE(view->marks()[2].at, 6.0);
         QCOMPARE(view->marks()[3].at, 10.0);
-        QVERIFY(view->ySpan().contains(view->marks()[0].at) && view->ySpan().contains(view->marks()[1].at));
-        QVERIFY(view->xSpan().contains(10.0));
+        QVERIFY(test::spanOf(*view, QwtAxis::YLeft).contains(view->marks()[0].at)
+                && test::spanOf(*view, QwtAxis::YLeft).contains(view->marks()[1].at));
+        QVERIFY(test::spanOf(*view, QwtAxis::XBottom).contains(10.0));
         view->setTest({1e-3, 1e-3, 0}, {});
         QCOMPARE(view->marks().size(), std::size_t(2));
     }
@@ -117,7 +118,7 @@ private slots:
         const auto view = plot({walk});
         view->setSelected(0);
         QVERIFY(test::coloursOf(*view).contains(Theme::colours(Theme::Kind::Light).curves[2].rgb()));
-        QVERIFY(view->xSpan().contains(300000.0));
+        QVERIFY(test::spanOf(*view, QwtAxis::XBottom).contains(300000.0));
     }
 
     void stagesAreWholeNumbers()

@@ -3,7 +3,9 @@
 
 #include "pictures.h"
 #include "pixels.h"
+#include "support/find.h"
 #include "widgets/base/Theme.h"
+#include "widgets/waterfall/OverlayItem.h"
 
 #include <qwt_scale_draw.h>
 #include <qwt_text.h>
@@ -200,9 +202,9 @@ private slots:
         QCOMPARE(m_viewport.selection()->time.high, peak.seconds);
         QCOMPARE(m_viewport.selection()->frequency.high, peak.hz);
         m_view->setSelectionNote("area SNR 3.0 dB");
-        QVERIFY(m_view->selectionText().endsWith("area SNR 3.0 dB"));
+        QVERIFY(overlay().selectionText.endsWith("area SNR 3.0 dB"));
         drag(pixel(20.0, 120.0), pixel(30.0, 140.0));
-        QVERIFY(!m_view->selectionText().contains("area")); // it was another box's
+        QVERIFY(!overlay().selectionText.contains("area")); // it was another box's
     }
 
     void theCursorGoesToThePeak()
@@ -227,7 +229,7 @@ private slots:
         const double before = m_view->sidebandSpacing();
         QVERIFY(before > 0.0);
         QCOMPARE(changed.count(), 1);
-        QVERIFY2(m_view->sidebandText().contains("carrier 300"), qPrintable(m_view->sidebandText()));
+        QVERIFY2(overlay().sidebandText.contains("carrier 300"), qPrintable(overlay().sidebandText));
         drag(pixel(70.0, 300.0 - 2.0 * before), pixel(60.0, 220.0)); // the second one below
         QVERIFY2(std::abs(m_view->sidebandSpacing() - 40.0) < 1.0,
                  qPrintable(QString::number(m_view->sidebandSpacing())));
@@ -238,7 +240,7 @@ private slots:
         drag(pixel(40.0, 300.0 - 2.0 * m_view->sidebandSpacing()),
              m_view->positionOf({40.5, peak}).toPoint() + QPoint(5, 3), Qt::ControlModifier);
         QCOMPARE(m_view->sidebandSpacing(), (300.0 - peak) / 2.0);
-        QVERIFY2(m_view->sidebandText().contains("30.0"), qPrintable(m_view->sidebandText()));
+        QVERIFY2(overlay().sidebandText.contains("30.0"), qPrintable(overlay().sidebandText));
         // Beside the lines one still pans.
         m_viewport.zoomTo({20.0, 60.0}, {200.0, 400.0});
         const double low = m_viewport.frequency().low;
@@ -439,6 +441,7 @@ private slots:
     }
 
 private:
+    const OverlayItem &overlay() const { return test::itemOf<OverlayItem>(*m_view); }
     void wheel(const QPointF &position, int notches, Qt::KeyboardModifiers modifiers = {})
     {
         const QPointF global = m_view->mapToGlobal(position);

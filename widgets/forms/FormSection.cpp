@@ -88,11 +88,6 @@ void FormSection::setMoreOpen(bool isOpen)
     m_moreBody->setVisible(isOpen);
 }
 
-bool FormSection::isOpen() const
-{
-    return m_heading->isChecked();
-}
-
 void FormSection::reveal(QWidget *row)
 {
     setOpen(true);

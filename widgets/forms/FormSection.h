@@ -19,7 +19,6 @@ public:
 
     void setOpen(bool isOpen);
     void setMoreOpen(bool isOpen);
-    bool isOpen() const;
 
     /// "More" is offered if one of its rows is shown.
     void offerMore();

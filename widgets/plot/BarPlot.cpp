@@ -29,10 +29,10 @@ public:
             for (std::size_t i = 0; i < series.values.size(); ++i) {
                 if (!(series.values[i] > 0.0))
                     continue;
-                const int place = m_owner.first() + int(i);
+                const int place = m_owner.m_first + int(i);
                 const double left = place - 0.5 * width + (m_owner.m_isWide ? 0.0 : width * share * double(s));
                 QColor colour = colours.curves[series.colour];
-                if (m_owner.m_selected >= m_owner.first() && place != m_owner.m_selected)
+                if (m_owner.m_selected >= m_owner.m_first && place != m_owner.m_selected)
                     colour.setAlpha(170);
                 const QPointF low(xMap.transform(left), yMap.transform(0.0));
                 const QPointF high(xMap.transform(left + width * share), yMap.transform(series.values[i]));

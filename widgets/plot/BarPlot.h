@@ -29,7 +29,6 @@ public:
     /// `isWide`: each place has a bar of one series only, which gets the full width.
     void setBars(std::vector<Series> series, int first, bool isWide = false);
     const std::vector<Series> &series() const { return m_series; }
-    int first() const { return m_first; }
     /// Minimum height of the ordinate, to keep a level line on the canvas.
     void setLeastHeight(double height);
     /// The highlighted place; less than `first`: none.

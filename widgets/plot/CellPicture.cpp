@@ -58,7 +58,7 @@ public:
     {
         if (m_owner.values().empty())
             return;
-        const Span x = outline(m_owner.xAxis());
+        const Span x = outline(m_owner.m_xAxis);
         const Span y = outline(m_owner.yAxis());
         // Aligned to whole pixels, because fractional scaling would drop some of the image's.
         const QRect place = QRectF(QPointF(xMap.transform(x.low), yMap.transform(y.high)),
@@ -70,7 +70,7 @@ public:
         painter->save();
         painter->drawImage(rect, m_image);
         painter->setRenderHint(QPainter::Antialiasing);
-        for (const Path &path : m_owner.paths())
+        for (const Path &path : m_owner.m_paths)
             drawPath(*painter, path, xMap, yMap);
         painter->restore();
     }
@@ -88,7 +88,7 @@ private:
             auto *line = reinterpret_cast<QRgb *>(m_image.scanLine(py));
             const Cells down = cellsOf(size.height() - 1 - py, size.height(), rows);
             for (int px = 0; px < size.width(); ++px) {
-                const Cells across = cellsOf(px, size.width(), m_owner.xAxis().count);
+                const Cells across = cellsOf(px, size.width(), m_owner.m_xAxis.count);
                 float highest = -std::numeric_limits<float>::infinity();
                 for (Index c = across.first; c < across.first + across.count; ++c) {
                     const float *column = m_owner.values().data() + c * rows + down.first;

@@ -37,10 +37,8 @@ public:
     void setPaths(std::vector<Path> paths);
     void clear();
 
-    const Axis &xAxis() const { return m_xAxis; }
     const Axis &yAxis() const { return m_yAxis; }
     const std::vector<float> &values() const { return m_values; }
-    const std::vector<Path> &paths() const { return m_paths; }
 
 protected:
     void restyle() override;

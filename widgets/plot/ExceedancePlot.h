@@ -65,8 +65,6 @@ public:
     double threshold() const { return m_threshold; }
     Unit unit() const { return m_unit; }
 
-    /// The threshold in words, in the chosen unit: "14.2 nat", "Pfa 3·10⁻⁷ per cell", "0.8 false alarms/h".
-    QString thresholdText() const;
     /// Label of the line: the threshold, the rate on this recording's own noise, nats.
     QString labelText() const;
 
@@ -91,6 +89,8 @@ protected:
     void followCanvas() override { layAxes(); }
 
 private:
+    /// The threshold in words, in the chosen unit: "14.2 nat", "Pfa 3·10⁻⁷ per cell", "0.8 false alarms/h".
+    QString thresholdText() const;
     void layAxes();
     void updateCurves();
     void drawNoise();

@@ -48,12 +48,12 @@ public:
             const QRectF bar = QRectF(QPointF(xMap.transform(change - 0.5 * barWidth), yMap.transform(h)),
                                       QPointF(xMap.transform(change + 0.5 * barWidth), yMap.transform(0.0)))
                                    .normalized();
-            const bool isChosen = m_owner.isEditable() && std::abs(change) == m_owner.selected();
+            const bool isChosen = m_owner.m_isEditable && std::abs(change) == m_owner.m_selected;
             QColor colour = isChosen ? colours.accent : colours.curves[0];
-            if (!m_owner.isEditable())
+            if (!m_owner.m_isEditable)
                 colour.setAlpha(130);
             painter->fillRect(bar, colour);
-            if (m_owner.isEditable())
+            if (m_owner.m_isEditable)
                 painter->fillRect(QRectF(bar.left(), bar.top() - 1.0, bar.width(), 3.0),
                                   isChosen ? colours.text : colour);
             constexpr double gap = 5.0;

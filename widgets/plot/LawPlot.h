@@ -22,12 +22,9 @@ public:
     /// `mostChange`: largest possible change of a rate. Cancels dragging.
     void setLaw(const std::vector<double> &law, int mostChange);
     void setEditable(bool isEditable);
-    bool isEditable() const { return m_isEditable; }
 
     /// The displayed law; while a bar is dragged, the law that releasing would request.
     const std::vector<double> &law() const { return m_shown; }
-    int selected() const { return m_selected; } ///< the change whose bar responds to keys
-    int reach() const;                          ///< largest change that has a bar
 
     QSize sizeHint() const override { return {240, 170}; }
     QSize minimumSizeHint() const override { return {150, 110}; }
@@ -45,6 +42,7 @@ protected:
 
 private:
     class BarItem;
+    int reach() const; ///< largest change that has a bar
     void select(int change);
     void drag(double y);
     void drop(bool isWanted);
@@ -53,7 +51,7 @@ private:
     std::vector<double> m_law{1.0};
     std::vector<double> m_shown{1.0};
     int m_mostChange = 0;
-    int m_selected = 0;
+    int m_selected = 0;  ///< the change whose bar responds to keys
     double m_grip = 0.0; ///< height of a dragged bar minus the pointer's
     bool m_isDragging = false;
     bool m_isEditable = true;

@@ -31,7 +31,7 @@ public:
         painter->save();
         painter->setFont(Theme::plotTitleFont());
         double row =
-            canvas.top() + m_owner.marksTop(); // texts of upright lines, each a row lower, so that they do not overlap
+            canvas.top() + m_owner.m_marksTop; // texts of upright lines, each a row lower, so that they do not overlap
         for (const Mark &mark : m_owner.marks()) {
             painter->setPen(QPen(mark.isUpright ? colours.text : colours.threshold, 1.2,
                                  mark.isUpright ? Qt::DashLine : Qt::SolidLine));

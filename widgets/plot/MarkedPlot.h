@@ -32,13 +32,10 @@ public:
 
     void setTitles(const QString &x, const QString &y);
     void setSpans(const Span &x, const Span &y);
-    const Span &xSpan() const { return m_x; }
-    const Span &ySpan() const { return m_y; }
     void setMarks(std::vector<Mark> marks);
     const std::vector<Mark> &marks() const { return m_marks; }
     /// Distance of the texts of upright lines from the canvas's upper edge.
     void setMarksTop(double pixels) { m_marksTop = pixels; }
-    double marksTop() const { return m_marksTop; }
     void setCursor(std::optional<double> x);
     std::optional<double> cursor() const { return m_cursorAt; }
     void setEmptySentence(const QString &sentence);

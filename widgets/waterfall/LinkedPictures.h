@@ -29,7 +29,6 @@ public:
     void setCount(int count);
     int count() const { return m_count; }
     WaterfallView &at(int place) const { return *m_views[std::size_t(place)]; }
-    ColourBar &bar() const { return *m_bar; }
 
 public slots:
     void setOrientation(faintline::WaterfallPicture::Orientation orientation);

@@ -42,12 +42,7 @@ public:
     bool hasHarmonics() const { return m_hasHarmonics; }
     /// Spacing of the sidebands around the cursor's frequency, Hz; 0: none are shown.
     double sidebandSpacing() const { return m_sidebandHz; }
-    std::optional<Sidebands> sidebands() const; ///< as shown
-    /// Text for the sidebands: carrier, spacing, the level of each at the cursor's time.
-    QString sidebandText() const;
-    const QString &cursorNote() const { return m_cursorNote; }
-    /// Text for the measured box.
-    QString selectionText() const;
+    std::optional<Sidebands> sidebands() const;       ///< as shown
     int eventAt(const QPointF &canvasPosition) const; ///< 0: none
 
 public slots:
@@ -92,6 +87,9 @@ protected:
     void updateContent() override;
 
 private:
+    /// Carrier, spacing, the level of each at the cursor's time.
+    QString sidebandText() const;
+    QString selectionText() const; ///< of the measured box
     void followCursor();
     void updateMarks();
 

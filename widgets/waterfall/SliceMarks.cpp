@@ -31,7 +31,8 @@ namespace {
 } // namespace
 
 SliceMarks::SliceMarks(WaterfallView &view)
-    : m_view(view), m_rings(makeMarks(view, QwtSymbol::Ellipse, 15)), m_diamonds(makeMarks(view, QwtSymbol::Diamond, 9))
+    : QObject(&view), m_view(view), m_rings(makeMarks(view, QwtSymbol::Ellipse, 15)),
+      m_diamonds(makeMarks(view, QwtSymbol::Diamond, 9))
 {
     connect(&view, &WaterfallView::orientationChanged, this, &SliceMarks::place);
 }

@@ -25,7 +25,7 @@ public:
         double score = 0.0; ///< nat
     };
 
-    explicit SliceMarks(WaterfallView &view);
+    explicit SliceMarks(WaterfallView &view); ///< its child
 
     void set(const std::optional<Best> &best, std::vector<Viewport::Point> paths);
     void clear() { set({}, {}); }

@@ -69,12 +69,6 @@ namespace {
 
 } // namespace
 
-bool SpeedResult::meetsGoals() const
-{
-    return std::all_of(ratios.begin(), ratios.end(), [](const Ratio &r) { return r.measured >= r.goal.ratio; })
-           && std::all_of(checks.begin(), checks.end(), [](const Checked &c) { return c.measured <= c.largest; });
-}
-
 SpeedResult measureSpeed(const SpeedKernel &kernel, const SpeedOptions &options, const RunContext &context)
 {
     SpeedResult result{kernel.name, kernel.title, kernel.unit, {}, {}, {}};

@@ -39,8 +39,6 @@ struct SpeedResult {
         double measured = 0.0;
     };
     std::vector<Checked> checks;
-
-    bool meetsGoals() const;
 };
 
 /// Runs a kernel's forms alternately, round by round, so that other load on the machine affects all of them, and takes
