@@ -35,7 +35,7 @@ DrawnLines::DrawnLines(Document &document, EventTable &table, std::vector<Waterf
         if (const Event *event = chosen(events))
             setDrawn(event->id, {}, tr("Event %1 as detected").arg(event->id));
     });
-    connect(m_table.table()->selectionModel(), &QItemSelectionModel::selectionChanged, this, &DrawnLines::show);
+    connect(&m_table, &EventTable::selectionChanged, this, &DrawnLines::show);
     for (const auto changed : {&Document::opened, &Document::annotationsChanged, &Document::shownEventsChanged})
         connect(&document, changed, this, &DrawnLines::show);
     connect(&document.viewport(), &Viewport::cursorChanged, this, &DrawnLines::enable);

@@ -70,14 +70,17 @@ EventReviews::EventReviews(Document &document, EventTable &table, std::vector<Wa
         m_table.table()->addAction(action);
     connect(&m_table, &EventTable::unmatchedActivated, this, &EventReviews::goToUnmatched);
     connect(&m_table, &EventTable::noteRequested, this, &EventReviews::editNote);
-    connect(m_table.table()->selectionModel(), &QItemSelectionModel::selectionChanged, this, &EventReviews::enable);
+    connect(&m_table, &EventTable::selectionChanged, this, &EventReviews::enable);
     connect(&m_document.viewport(), &Viewport::selectionChanged, this, &EventReviews::enable);
     connect(&m_document, &Document::opened, this, &EventReviews::show);
     connect(&m_document, &Document::annotationsChanged, this, &EventReviews::show);
     connect(&m_document, &Document::shownEventsChanged, this, &EventReviews::show);
     for (WaterfallView *view : m_views)
-        connect(view, &WaterfallView::contextMenuRequested, this,
-                [this](QMenu *menu, double seconds, double hz) { fillContextMenu(*menu, seconds, hz); });
+        connect(view, &WaterfallView::contextMenuRequested, this, [this, view](QMenu *menu, double seconds, double hz) {
+            if (const int event = view->eventAt(view->positionOf({seconds, hz})))
+                fillContextMenu(*menu, event);
+            fillContextMenu(*menu, seconds, hz);
+        });
     enable();
 }
 
@@ -271,13 +274,11 @@ void EventReviews::fillContextMenu(QMenu &menu, double seconds, double hz)
     }
 }
 
-/// What is said next is said about that track.
-void EventReviews::fillContextMenu(QMenu &menu, int track)
+/// What is said next is said about that event.
+void EventReviews::fillContextMenu(QMenu &menu, int event)
 {
-    m_table.setSelectedEvent(track);
-    for (PingMap *map : m_maps)
-        map->setSelectedTrack(track);
-    menu.addSection(tr("Track %1").arg(track));
+    m_table.setSelectedEvent(event);
+    menu.addSection(tr("Event %1").arg(event));
     menu.addActions(m_eventActions);
 }
 

@@ -65,7 +65,7 @@ private:
     void editClassNames();
     void askForLabel();
     void fillContextMenu(QMenu &menu, double seconds, double hz);
-    void fillContextMenu(QMenu &menu, int track);
+    void fillContextMenu(QMenu &menu, int event);
     void show();
     void showUnmatched();
     void goToUnmatched(int line);

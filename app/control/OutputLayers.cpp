@@ -29,6 +29,10 @@ OutputLayers::OutputLayers(Document &document, WaterfallView &output, QObject *p
     });
     connect(&document, &Document::analysisChanged, this, &OutputLayers::follow);
     connect(&document, &Document::provisionalChanged, this, &OutputLayers::show);
+    connect(&document, &Document::shownThresholdChanged, this, [this] {
+        if (m_isOverlay) // which ends where the statistic passes it
+            show();
+    });
     add(new LineLayerPlane(output, document.viewport(), this));
     connect(&m_runner, &JobRunner::failed, this, &OutputLayers::failed);
 }
@@ -281,7 +285,7 @@ void OutputLayers::show()
     }
     const auto [rows, columns] = plane.axes(*analysis);
     item.setPicture(m_result.picture, rows, columns);
-    item.setOverlay(m_isOverlay, analysis->threshold);
+    item.setOverlay(m_isOverlay, m_document.shownThreshold());
     showLayer(item);
     plane.view().setTracksPictured(layer() == OutputLayer::Presence && !m_isOverlay);
     plane.replot();

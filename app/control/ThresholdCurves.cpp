@@ -44,12 +44,14 @@ ThresholdCurves::ThresholdCurves(Document &document, AnalysisController &control
         showSelection();
     });
     connect(&document, &Document::livePlanChanged, this, &ThresholdCurves::showPlan);
+    connect(&document, &Document::opened, this, &ThresholdCurves::showUnit);
+    connect(&document, &Document::settingsChanged, this, &ThresholdCurves::showUnit);
     connect(&document, &Document::shownThresholdChanged, this,
             [this] { m_plot.setThreshold(m_document.shownThreshold()); });
     connect(&document.viewport(), &Viewport::selectionChanged, this, &ThresholdCurves::showSelection);
     connect(&plot, &ExceedancePlot::thresholdRequested, &controller, &AnalysisController::previewThreshold);
     connect(&plot, &ExceedancePlot::thresholdCommitted, &controller, &AnalysisController::commitThreshold);
-    connect(&plot, &ExceedancePlot::unitChanged, &controller, [&controller](ExceedancePlot::Unit unit) {
+    connect(&plot, &ExceedancePlot::unitRequested, &controller, [&controller](ExceedancePlot::Unit unit) {
         controller.setThresholdUnit(
             std::ranges::find(units, unit, [](const auto &both) { return both.first; })->second);
     });
@@ -60,8 +62,13 @@ void ThresholdCurves::showPlan()
     const AnalysisPlan &plan = *m_document.plan();
     m_plot.setStatisticUnit(statisticUnit(plan.settings));
     m_plot.setCalibration(plan.calibration, plan.cellFramesPerHour);
+}
+
+/// That of the settings: a plan may be older.
+void ThresholdCurves::showUnit()
+{
     m_plot.setUnit(
-        std::ranges::find(units, plan.settings.decide.by, [](const auto &both) { return both.second; })->first);
+        std::ranges::find(units, m_document.settings().decide.by, [](const auto &both) { return both.second; })->first);
 }
 
 void ThresholdCurves::showClosedForm()

@@ -21,6 +21,7 @@ public:
 
 private:
     void showPlan();
+    void showUnit();
     void showClosedForm();
     void showSelection();
 

@@ -21,7 +21,7 @@ namespace {
     {
         checkKeys(json, "view",
                   {"seconds", "hz", "cursor", "orientation", "colourMap", "logarithmic", "radio", "firstChannel",
-                   "bearing", "cursorBearing", "polar", "axes", "position", "sliced"});
+                   "event", "bearing", "cursorBearing", "polar", "axes", "position", "sliced"});
         ViewState view;
         if (json.contains("seconds") && json.contains("hz"))
             view.visible = {spanFromJson(json["seconds"]), spanFromJson(json["hz"])};
@@ -44,6 +44,7 @@ namespace {
         view.isRadioAxis = json.value("radio", false);
         if (json.contains("firstChannel"))
             view.firstChannel = wholeNumber<int>(json["firstChannel"], "firstChannel");
+        view.selectedEvent = wholeNumber(json, "view", "event", 0);
         return view;
     }
 
@@ -78,6 +79,8 @@ Json toJson(const ViewState &view)
         json["radio"] = true;
     if (view.firstChannel != 0)
         json["firstChannel"] = view.firstChannel;
+    if (view.selectedEvent != 0)
+        json["event"] = view.selectedEvent;
     return json;
 }
 

@@ -20,6 +20,7 @@ struct ViewState {
     bool isLogarithmic = false; ///< the frequency axis
     bool isRadioAxis = false;   ///< frequencies are labelled with the centre frequency added
     int firstChannel = 0;       ///< of the channels shown beside each other
+    int selectedEvent = 0;      ///< 0: none
 
     // For sonar pings, where the frequency above is the range.
     std::optional<Span> bearing{}; ///< visible

@@ -156,7 +156,7 @@ void DopplerPanel::connectInputs()
     });
     m_fit.watch(*this, m_sentence);
     m_fit.askAt(*m_centre, &QDoubleSpinBox::valueChanged);
-    m_fit.askAt(*m_events.table()->selectionModel(), &QItemSelectionModel::selectionChanged);
+    m_fit.askAt(m_events, &EventTable::selectionChanged);
     m_fit.askAt(m_document, &Document::opened, &Document::shownEventsChanged);
 }
 

@@ -154,6 +154,8 @@ void StateSlicePanel::connectDocument()
 {
     connect(&m_document, &Document::analysisChanged, this, &StateSlicePanel::fillAxes);
     connect(&m_document, &Document::shownEventsChanged, this, &StateSlicePanel::placeMarks);
+    connect(&m_document, &Document::shownThresholdChanged, this,
+            [this] { m_view->setThreshold(m_document.shownThreshold()); });
     connect(&m_document.viewport(), &Viewport::spanChanged, this, &StateSlicePanel::takeFrequencies);
     m_cut.watch(*this, m_sentence);
     m_cut.askAt(m_document, &Document::opened);
@@ -312,7 +314,6 @@ void StateSlicePanel::show()
     m_shownAxes = axes;
     m_viewport.setCursor(cursor);
     m_viewport.reveal({{cursor.seconds, cursor.seconds}, {cursor.hz, cursor.hz}});
-    m_view->setThreshold(m_document.shownThreshold());
     const bool isOurRange = m_view->isRangeAutomatic() || m_view->range() == m_givenRange;
     m_view->setPicture(cut.picture, cut.columns());
     m_view->updateLayout(); // its axes may be new

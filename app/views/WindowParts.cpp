@@ -4,6 +4,7 @@
 #include "app/panels/ChannelsPanel.h"
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
+#include "widgets/events/EventTable.h"
 
 namespace faintline {
 
@@ -27,11 +28,14 @@ ViewState WindowParts::viewState() const
 {
     ViewState view = bench().viewState();
     view.firstChannel = panel<ChannelsPanel>().firstChannel();
+    view.selectedEvent = m_events->selectedEvent();
     return view;
 }
 
 void WindowParts::restore(const ViewState &view)
 {
+    if (view.selectedEvent != 0)
+        goTo(view.selectedEvent); // what was seen of it follows
     bench().restore(view);
     panel<ChannelsPanel>().setFirstChannel(view.firstChannel);
 }

@@ -318,6 +318,7 @@ void MainWindow::connectParts()
         connect(one, &Bench::thresholdStepRequested, &m_controller, &AnalysisController::stepThreshold);
     }
     connect(m_events, &EventTable::eventActivated, this, &MainWindow::goTo);
+    connect(m_events, &EventTable::selectionChanged, this, [this] { bench().showSelected(m_events->selectedEvent()); });
     connect(m_reviews, &EventReviews::classNamesChanged, this,
             [this](const QStringList &names) { m_memory.setClassNames(names); });
     connect(&m_reviews->files(), &EventFiles::told, this, [this](const QString &where, const QString &what) {
@@ -527,8 +528,8 @@ void MainWindow::openScans(const ScanTest &test)
 
 void MainWindow::goTo(int event)
 {
-    bench().selectEvent(event);
     m_events->setSelectedEvent(event);
+    bench().selectEvent(event);
 }
 
 void MainWindow::open(const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust)

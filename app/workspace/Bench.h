@@ -76,6 +76,7 @@ public slots:
     /// Marks the event, moves the cursor to it and scrolls it into view. If the event is below the shown threshold, its
     /// track is only scrolled into view.
     void selectEvent(int id);
+    void showSelected(int id); ///< an event in all pictures; 0: none
     virtual void stepFrames(int frames) = 0;
     virtual void setPlaying(bool isPlaying);
 
@@ -115,7 +116,6 @@ protected:
 
     void showTruth();
     virtual void showMarks() {}                        ///< of planes, after the events have changed
-    void showSelected(int id);                         ///< an event in all pictures; 0: none
     virtual void markSelected(int) {}                  ///< a track, in planes
     virtual void reveal(const Track &) {}              ///< scrolls it into view, shown or not
     virtual void goTo(const Event &event) = 0;         ///< moves the cursor to it and scrolls the cursor into view

@@ -20,6 +20,7 @@
 #include <QApplication>
 #include <QInputDialog>
 #include <QListWidget>
+#include <QMenu>
 #include <QTableView>
 
 using namespace faintline;
@@ -185,11 +186,15 @@ private slots:
 
     void aRejectedEventIsFaintAndCanBeFilteredOut()
     {
-        const QImage before = m_window->workbench().output()->grab().toImage();
+        const auto seen = [this] {
+            choose({2}); // what is selected is bright
+            return m_window->workbench().output()->grab().toImage();
+        };
+        const QImage before = seen();
         choose({1});
         const auto all = shownIds(m_window->eventTable()).size();
         m_window->reviews().judge(Verdict::Rejected);
-        QVERIFY(m_window->workbench().output()->grab().toImage() != before);
+        QVERIFY(seen() != before);
         QCOMPARE(shownIds(m_window->eventTable()).size(), all);
         m_window->eventTable().filter()->setText("!rejected");
         QCOMPARE(shownIds(m_window->eventTable()).size(), all - 1);
@@ -318,6 +323,43 @@ private slots:
         // A picture tells of its making, but another program makes it.
         QVERIFY(replay("shot.png", &error).isEmpty());
         QVERIFY2(error.contains("faintline replay") && error.count('\n') == 1, error.constData());
+    }
+
+    void aRightClickSelectsInAllViews()
+    {
+        const WaterfallView *views[]{m_window->workbench().input(), m_window->workbench().output()};
+        const auto isSelected = [&](int id) {
+            return m_window->eventTable().selectedEvent() == id
+                   && std::ranges::all_of(views,
+                                          [&](const WaterfallView *view) { return view->selectedEvent() == id; });
+        };
+        const Event second = document().shownEvents()[1];
+        for (WaterfallView *view : {m_window->workbench().input(), m_window->workbench().output()}) {
+            choose({document().shownEvents()[0].id});
+            QMenu menu;
+            emit view->contextMenuRequested(&menu, 0.5 * (second.onsetSeconds + second.endSeconds),
+                                            second.position.front());
+            QVERIFY(isSelected(second.id));
+            QVERIFY(std::ranges::any_of(menu.actions(),
+                                        [](const QAction *action) { return action->shortcut() == Qt::Key_X; }));
+        }
+        QTableView &table = *m_window->eventTable().table();
+        const auto ids = shownIds(m_window->eventTable());
+        const auto row = int(std::ranges::find(ids, document().shownEvents()[0].id) - ids.begin());
+        QTest::mousePress(table.viewport(), Qt::RightButton, {},
+                          table.visualRect(table.model()->index(row, 1)).center());
+        QVERIFY(isSelected(document().shownEvents()[0].id));
+    }
+
+    void theSelectionIsOfTheView()
+    {
+        const int second = document().shownEvents()[1].id;
+        choose({second});
+        const ViewState kept = viewFromJson(toJson(m_window->viewState()), "s.faintline");
+        choose({document().shownEvents()[0].id});
+        m_window->restore(kept);
+        QCOMPARE(m_window->eventTable().selectedEvent(), second);
+        QCOMPARE(m_window->workbench().output()->selectedEvent(), second);
     }
 
     void survivesAnotherThresholdAndTheSession()

@@ -11,6 +11,7 @@
 #include "support/test.h"
 #include "widgets/base/diskRoom.h"
 #include "widgets/events/EventTable.h"
+#include "widgets/plot/ExceedancePlot.h"
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -207,6 +208,14 @@ void tst_Live::changesTheThreshold()
     QVERIFY(document.live().plan->threshold > before + 1.0);
     QCOMPARE(document.shownThreshold(), document.live().plan->threshold);
     QCOMPARE(*window->workbench().output()->threshold(), document.live().plan->threshold);
+    // A plan that comes late is of older settings, and changes nothing of the newer ones.
+    window->controller().setThresholdUnit(DecideSettings::By::PfaPerCell);
+    LiveView late = document.live();
+    late.plan = std::make_shared<const AnalysisPlan>(*late.plan);
+    QVERIFY(late.plan->settings.decide.by != DecideSettings::By::PfaPerCell);
+    document.setLive(late);
+    QCOMPARE(document.settings().decide.by, DecideSettings::By::PfaPerCell);
+    QCOMPARE(window->thresholdPlot().unit(), ExceedancePlot::Unit::PfaPerCell);
     window->listening().run().stop();
     QTRY_VERIFY_WITH_TIMEOUT(!window->listening().run().isRunning(), patience);
 }

@@ -274,7 +274,7 @@ private slots:
         const double threshold = window->document().analysis()->threshold;
         for (const auto unit :
              {ExceedancePlot::Unit::PfaPerCell, ExceedancePlot::Unit::Nats, ExceedancePlot::Unit::FalseAlarmsPerHour}) {
-            emit window->thresholdPlot().unitChanged(unit);
+            emit window->thresholdPlot().unitRequested(unit);
             QVERIFY(settle(*window));
             QVERIFY(std::abs(window->document().analysis()->threshold - threshold) < 0.1);
         }

@@ -98,6 +98,9 @@ private slots:
         QVERIFY(settle(m_window->panel<StateSlicePanel>()));
         QVERIFY(std::abs(states.findChild<SliceMarks *>()->best()->column - (200.0 + 0.5 * seconds)) < 3.0);
         QVERIFY(!states.findChild<SliceMarks *>()->paths().empty());
+        m_window->controller().previewThreshold(40.0);
+        QCOMPARE(states.view()->threshold(), std::optional(40.0));
+        m_window->controller().previewThreshold(analysis.threshold);
         const QString there = sentenceOf(states);
         QVERIFY2(there.startsWith(QStringLiteral("Frame %1 at").arg(analysis.time().nearest(30.0) + 1)),
                  qPrintable(there));
@@ -258,6 +261,12 @@ private slots:
         QVERIFY(layers.isOverlay());
         QVERIFY(output.grab().toImage() != rate);
         QVERIFY(output.title().text().contains(QStringLiteral("Statistic")));
+        // What is opaque follows the threshold while it is dragged.
+        const QImage overlay = itemOf<LayerItem>(output).image();
+        m_window->controller().previewThreshold(2.0 * m_window->document().shownThreshold());
+        QVERIFY(itemOf<LayerItem>(output).image() != overlay);
+        m_window->controller().previewThreshold(m_window->document().analysis()->threshold);
+        QCOMPARE(itemOf<LayerItem>(output).image(), overlay);
         for (int i = 0; i < 4; ++i)
             QTest::keyClick(&output, Qt::Key_V);
         QCOMPARE(layers.layer(), OutputLayer::Presence);

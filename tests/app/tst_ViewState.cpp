@@ -20,12 +20,14 @@ private slots:
         view.colourMap = "viridis";
         view.bearing = Span{10.0, 20.0};
         view.cursorBearing = 15.0;
+        view.selectedEvent = 7;
         const ViewState back = viewFromJson(toJson(view), "s.faintline");
         QVERIFY(back.visible == view.visible && back.cursor == view.cursor);
         QVERIFY(back.bearing == view.bearing && back.cursorBearing == view.cursorBearing);
         QVERIFY(back.isLogarithmic && back.isRadioAxis && back.isPolar);
         QCOMPARE(back.orientation, view.orientation);
         QCOMPARE(back.colourMap, view.colourMap);
+        QCOMPARE(back.selectedEvent, 7);
     }
 
     void refusalsNameTheFile()

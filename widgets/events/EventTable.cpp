@@ -56,7 +56,12 @@ EventTable::EventTable(QWidget *parent)
     layout->addWidget(m_unmatched);
     setUpUnmatched();
     updateCount();
-    connect(m_table->selectionModel(), &QItemSelectionModel::selectionChanged, this, &EventTable::updateCard);
+    const auto follow = [this] { // the current row is told apart, after the selection
+        updateCard();
+        emit selectionChanged();
+    };
+    connect(m_table->selectionModel(), &QItemSelectionModel::selectionChanged, this, follow);
+    connect(m_table->selectionModel(), &QItemSelectionModel::currentChanged, this, follow);
     connect(m_model, &QAbstractItemModel::dataChanged, this, &EventTable::updateCard);
     connect(m_model, &QAbstractItemModel::headerDataChanged, this, &EventTable::updateCard);
     updateCard();

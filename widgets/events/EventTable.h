@@ -61,6 +61,7 @@ public slots:
 signals:
     /// Emitted on click, Enter, N or Shift+N: views should go to the event.
     void eventActivated(int id);
+    void selectionChanged();           ///< by whomever: views mark `selectedEvent`
     void unmatchedActivated(int line); ///< index of the line in `setUnmatched`
     void noteRequested();              ///< emitted on a double-click in the notes column, for the selected event
 

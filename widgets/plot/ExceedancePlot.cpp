@@ -134,7 +134,6 @@ void ExceedancePlot::setUnit(Unit unit)
         return;
     m_unit = unit;
     restyle();
-    emit unitChanged(unit);
 }
 
 double ExceedancePlot::ordinate(double nats) const
@@ -367,7 +366,7 @@ void ExceedancePlot::contextMenuEvent(QContextMenuEvent *event)
         QAction *action = group->addAction(menu.addAction(text));
         action->setCheckable(true);
         action->setChecked(unit == m_unit);
-        connect(action, &QAction::triggered, this, [this, unit = unit] { setUnit(unit); });
+        connect(action, &QAction::triggered, this, [this, unit = unit] { emit unitRequested(unit); });
     }
     emit contextMenuRequested(&menu);
     menu.exec(event->globalPos());

@@ -76,10 +76,10 @@ public slots:
     void setUnit(faintline::ExceedancePlot::Unit unit);
 
 signals:
-    void thresholdRequested(double nats); ///< live, while dragging
-    void thresholdCommitted(double nats); ///< at release, or after a key
-    void unitChanged(faintline::ExceedancePlot::Unit unit);
-    void contextMenuRequested(QMenu *menu); ///< emitted before it is shown: others may add actions
+    void thresholdRequested(double nats);                     ///< live, while dragging
+    void thresholdCommitted(double nats);                     ///< at release, or after a key
+    void unitRequested(faintline::ExceedancePlot::Unit unit); ///< chosen in the menu
+    void contextMenuRequested(QMenu *menu);                   ///< emitted before it is shown: others may add actions
 
 protected:
     void keyPressEvent(QKeyEvent *event) override;
