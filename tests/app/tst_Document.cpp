@@ -1,8 +1,6 @@
 #include "app/document/Document.h"
 #include "support/test.h"
 
-#include <random>
-
 using namespace faintline;
 
 namespace {
@@ -12,26 +10,6 @@ AnalysisSettings withSnr(double snr)
     AnalysisSettings settings;
     settings.model.snr = snr;
     return settings;
-}
-
-/// Another value for a field, within its range.
-FieldValue randomValue(const FieldInfo &info, std::mt19937 &random)
-{
-    const double fraction = std::uniform_real_distribution(0.0, 1.0)(random);
-    const double number = info.minimum + fraction * (std::min(info.maximum, 1e3) - info.minimum);
-    switch (info.kind) {
-    case FieldKind::Flag:
-        return fraction < 0.5;
-    case FieldKind::Integer:
-        return int(number);
-    case FieldKind::Number:
-        return number;
-    case FieldKind::Choice:
-        return info.choices[std::min(info.choices.size() - 1, std::size_t(fraction * double(info.choices.size())))];
-    case FieldKind::Numbers:
-        return std::vector<double>{number};
-    }
-    return 0.0;
 }
 
 } // namespace
@@ -105,30 +83,6 @@ private slots:
         document.edit(AnalysisSettings(), "Change the SNR", "model.snr");
         QCOMPARE(document.undoStack().count(), 0);
         QVERIFY(!document.isModified());
-    }
-
-    void twoHundredRandomEditsUndoneAreWhatTheyWere()
-    {
-        std::mt19937 random(5);
-        Document document;
-        std::vector<AnalysisSettings> history{document.settings()};
-        const auto &fields = AnalysisSettings::fields();
-        while (document.undoStack().count() < 200) {
-            AnalysisSettings after = document.settings();
-            const auto &field = fields[random() % fields.size()];
-            field.set(after, randomValue(field, random));
-            if (after == document.settings())
-                continue;
-            document.edit(after, QString::fromStdString(field.name));
-            history.push_back(after);
-        }
-        for (std::size_t i = history.size(); i-- > 1;) {
-            QCOMPARE(document.settings(), history[i]);
-            document.undoStack().undo();
-        }
-        QCOMPARE(document.settings(), AnalysisSettings());
-        document.undoStack().setIndex(200);
-        QCOMPARE(document.settings(), history.back());
     }
 };
 

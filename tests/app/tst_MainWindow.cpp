@@ -700,26 +700,6 @@ private slots:
         choose(*window, "Researcher");
         QVERIFY(window->workbench().regulationPlot()->isVisible());
     }
-
-    void twoHundredEditsInTheWindowUndoneAreWhatTheyWere()
-    {
-        auto window = this->window();
-        QVERIFY(openAndSettle(*window, m_scene));
-        std::mt19937 random(9);
-        const std::vector<QString> names{"model.snr", "noise.blockWindows", "decide.thresholdNats",
-                                         "spectrogram.windowSeconds"};
-        for (int i = 0; i < 200; ++i) {
-            window->controller().edit(names[random() % names.size()], 0.25 + 0.01 * double(random() % 100), "Change");
-            if (i % 7 == 0)
-                QCoreApplication::processEvents();
-        }
-        while (window->document().undoStack().canUndo())
-            window->document().undoStack().undo();
-        QCOMPARE(window->document().settings(), AnalysisSettings());
-        QVERIFY(settle(*window));
-        QVERIFY(window->document().isCurrent());
-        QCOMPARE(window->messages().text(), QString());
-    }
 };
 
 FAINTLINE_WINDOW_TEST(tst_MainWindow)

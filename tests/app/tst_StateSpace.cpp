@@ -213,36 +213,6 @@ private slots:
         QCOMPARE(law().law(), before);
     }
 
-    void escapeLetsItBe()
-    {
-        m_window->showView("slice");
-        m_window->panel<StateSlicePanel>().findChild<QTabBar *>()->setCurrentIndex(1);
-        const std::vector<double> before = setting();
-        dragBar(law(), 0, 0.3, false);
-        QVERIFY(law().law() != before); // seen while it is dragged
-        QCOMPARE(setting(), before);
-        QTest::keyClick(&law(), Qt::Key_Escape);
-        QTest::mouseRelease(law().canvas(), Qt::LeftButton);
-        QCOMPARE(law().law(), before);
-        QCOMPARE(setting(), before);
-    }
-
-    void barsMoveByKey()
-    {
-        m_window->showView("slice");
-        m_window->panel<StateSlicePanel>().findChild<QTabBar *>()->setCurrentIndex(1);
-        law().setFocus();
-        QTest::keyClick(&law(), Qt::Key_Right);
-        QTest::keyClick(&law(), Qt::Key_Down);
-        QVERIFY(std::abs(setting()[1] - 0.32) < 1e-12);
-        QVERIFY(std::abs(setting()[0] - 0.36) < 1e-12);
-        QTest::keyClick(&law(), Qt::Key_Up, Qt::ShiftModifier);
-        QVERIFY(std::abs(setting()[1] - 0.4) < 1e-12);
-        QTest::keyClick(&law(), Qt::Key_Down, Qt::ControlModifier);
-        QVERIFY(std::abs(setting()[1] - 0.399) < 1e-12);
-        QVERIFY(std::abs(total(setting()) - 1.0) < 1e-9);
-    }
-
     void layersByKey()
     {
         OutputLayers &layers = m_window->workbench().layers();

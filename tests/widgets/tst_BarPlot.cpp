@@ -193,28 +193,6 @@ private slots:
         QCOMPARE(test::imageOf(view), sentence);
     }
 
-    void everyThemeHasItsColours_data()
-    {
-        QTest::addColumn<Theme::Kind>("kind");
-        QTest::newRow("light") << Theme::Kind::Light;
-        QTest::newRow("dark") << Theme::Kind::Dark;
-        QTest::newRow("contrast") << Theme::Kind::HighContrast;
-    }
-
-    void everyThemeHasItsColours()
-    {
-        QFETCH(Theme::Kind, kind);
-        BarPlot view;
-        view.setBars({{"all", 1, {2.0, 2.0}}}, 1);
-        view.setMarks({{1.0, false, "level", false}});
-        test::show(view);
-        view.setPalette(Theme::palette(kind));
-        const QImage image = test::imageOf(view);
-        QCOMPARE(test::colourAt(image, view.canvasPosition(1.0, 0.5)), curve(1, kind));
-        QCOMPARE(test::colourAt(image, view.canvasPosition(1.5, 1.3)), Theme::colours(kind).canvas.rgb());
-        QVERIFY(test::coloursOf(image).contains(Theme::colours(kind).threshold.rgb()));
-    }
-
     void aClickTakesTheFocus()
     {
         QWidget window;
@@ -229,7 +207,7 @@ private slots:
     }
 
 private:
-    static QRgb curve(int i, Theme::Kind kind = Theme::Kind::Light) { return Theme::colours(kind).curves[i].rgb(); }
+    static QRgb curve(int i) { return Theme::colours(Theme::Kind::Light).curves[i].rgb(); }
     /// Rows of pixels that a colour fills in the column above a place.
     static int heightOf(BarPlot &view, double place, QRgb colour)
     {

@@ -191,20 +191,6 @@ private slots:
         }
     }
 
-    void followsTheTheme()
-    {
-        const auto lightness = [&] {
-            QCoreApplication::processEvents();
-            return m_view->plot()->canvasBackground().color().lightness();
-        };
-        QVERIFY(lightness() > 200);
-        Theme::apply(Theme::Kind::Dark);
-        const int dark = lightness();
-        Theme::apply(Theme::Kind::Light);
-        QVERIFY2(dark < 60, qPrintable(QString::number(dark)));
-        QVERIFY(lightness() > 200);
-    }
-
 private:
     static Chart chart(bool isLogarithmicX = false)
     {

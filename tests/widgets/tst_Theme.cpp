@@ -6,9 +6,12 @@
 #include "widgets/base/icon.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/forms/SettingsForm.h"
+#include "widgets/plot/BarPlot.h"
+#include "widgets/plot/ChartPlot.h"
 #include "widgets/plot/ColourMap.h"
 #include "widgets/plot/ExceedancePlot.h"
 #include "widgets/plot/StripPlot.h"
+#include "widgets/plot/WalkPlot.h"
 #include "widgets/waterfall/ColourBar.h"
 #include "widgets/waterfall/OverviewStrip.h"
 #include "widgets/waterfall/WaterfallView.h"
@@ -58,9 +61,21 @@ public:
         form->setError("model.snr", "must be larger");
         auto *table = new EventTable;
         table->setEvents({test::event(1, 0.0, 2.0, 110.0)});
+        auto *chart = new ChartPlot;
+        chart->setChart({"Detection",
+                         "SNR (dB)",
+                         "Pd",
+                         false,
+                         false,
+                         {{"one", Curve::Kind::Measured, {{1, 0.2, {0.1, 0.3}}, {10, 0.6, {0.5, 0.7}}}}}});
+        auto *bars = new BarPlot;
+        bars->setBars({{"all", 1, {2.0, 1.0}}}, 1);
+        auto *walks = new WalkPlot;
+        walks->setTest({1e-3, 1e-3, 10}, Index(6));
+        walks->setWalks({{{1.0, 3.0, 5.0, 8.0}, SprtDecision::H1, true, false}});
         auto *layout = new QGridLayout(this);
-        const std::initializer_list<QWidget *> widgets{view,     bar,  strip, exceedance,
-                                                       overview, form, table, new ReadOut};
+        const std::initializer_list<QWidget *> widgets{view,  bar,         strip, exceedance, overview, form,
+                                                       table, new ReadOut, chart, bars,       walks};
         int i = 0;
         for (QWidget *widget : widgets) {
             layout->addWidget(widget, i / 2, i % 2);

@@ -128,13 +128,6 @@ private slots:
             QCOMPARE(tick, std::round(tick));
     }
 
-    void themesChange()
-    {
-        const auto view = plot();
-        view->setPalette(Theme::palette(Theme::Kind::Dark));
-        QVERIFY(test::coloursOf(*view).contains(Theme::colours(Theme::Kind::Dark).canvas.rgb()));
-    }
-
 private:
     static std::vector<WalkPlot::Walk> twoWalks()
     {
