@@ -12,15 +12,121 @@ class tst_GestureWatcher : public QObject
     Q_OBJECT
 
 private slots:
-    void init();
-    void eachKeyIsOne();
-    void aHeldKeyIsOne();
-    void theReleaseOfAnotherKeyDoesNotEndIt();
-    void aKeyIsTheSameWithAndWithoutShift();
-    void aDragIsOne();
-    void aModifierIsPartOfTheDrag();
-    void leavingTheApplicationEndsIt();
-    void aWheelIsOneUntilThePress();
+    void init()
+    {
+        m_box = std::make_unique<QSpinBox>();
+        m_box->show();
+        m_watcher = std::make_unique<GestureWatcher>();
+        m_began = std::make_unique<QSignalSpy>(m_watcher.get(), &GestureWatcher::began);
+        m_ended = std::make_unique<QSignalSpy>(m_watcher.get(), &GestureWatcher::ended);
+    }
+
+    void eachKeyIsOne()
+    {
+        sendKey(QEvent::KeyPress, false);
+        QCOMPARE(beginnings(), 1);
+        sendKey(QEvent::KeyRelease, false);
+        QCOMPARE(m_ended->count(), 0); // who handles the release still belongs to it
+        QCOMPARE(endings(), 1);
+        sendKey(QEvent::KeyPress, false);
+        sendKey(QEvent::KeyRelease, false);
+        QCOMPARE(beginnings(), 2);
+        QCOMPARE(endings(), 2);
+    }
+
+    void aHeldKeyIsOne()
+    {
+        sendKey(QEvent::KeyPress, false);
+        for (int i = 0; i < 5; ++i) {
+            sendKey(QEvent::KeyRelease, true);
+            sendKey(QEvent::KeyPress, true);
+        }
+        QCOMPARE(beginnings(), 1);
+        QCOMPARE(endings(), 0);
+        sendKey(QEvent::KeyRelease, false);
+        QCOMPARE(endings(), 1);
+        // A press before the end has come is the next gesture's, which that end does not cut short.
+        sendKey(QEvent::KeyPress, false);
+        sendKey(QEvent::KeyRelease, false);
+        sendKey(QEvent::KeyPress, false);
+        QCOMPARE(beginnings(), 3);
+        QCOMPARE(endings(), 1);
+    }
+
+    void theReleaseOfAnotherKeyDoesNotEndIt()
+    {
+        sendKey(QEvent::KeyPress, false, Qt::Key_Up);
+        sendKey(QEvent::KeyPress, false, Qt::Key_Down);
+        QCOMPARE(beginnings(), 2);
+        sendKey(QEvent::KeyRelease, false, Qt::Key_Up);
+        QCOMPARE(endings(), 0);
+        sendKey(QEvent::KeyRelease, false, Qt::Key_Down);
+        QCOMPARE(endings(), 1);
+        QCOMPARE(beginnings(), 2);
+    }
+
+    void aKeyIsTheSameWithAndWithoutShift()
+    {
+        constexpr int place = 10;
+        for (int i = 1; i <= 2; ++i) {
+            sendKeyAt(place, QEvent::ShortcutOverride, Qt::Key_Exclam); // Qt makes one without a place of a KeyPress
+            QCOMPARE(beginnings(), i);
+            sendKeyAt(place, QEvent::KeyRelease, Qt::Key_1);
+            QCOMPARE(endings(), i);
+        }
+    }
+
+    void aDragIsOne()
+    {
+        QTest::mousePress(line(), Qt::LeftButton);
+        const int begun = beginnings();
+        QVERIFY(begun >= 1);
+        QTest::mouseMove(line(), {3, 3});
+        QCOMPARE(beginnings(), begun);
+        QCOMPARE(endings(), 0);
+        QTest::mouseRelease(line(), Qt::LeftButton);
+        QCOMPARE(endings(), 1);
+        QCOMPARE(beginnings(), begun);
+    }
+
+    void aModifierIsPartOfTheDrag()
+    {
+        for (const Qt::Key key : {Qt::Key_Shift, Qt::Key_Control, Qt::Key_Alt, Qt::Key_Meta, Qt::Key_AltGr}) {
+            QTest::mousePress(line(), Qt::LeftButton);
+            const int begun = beginnings();
+            const int ended = endings();
+            sendKey(QEvent::KeyPress, false, key);
+            sendKey(QEvent::KeyRelease, false, key);
+            QCOMPARE(beginnings(), begun);
+            QCOMPARE(endings(), ended);
+            QTest::mouseRelease(line(), Qt::LeftButton);
+            QCOMPARE(endings(), ended + 1);
+        }
+    }
+
+    void leavingTheApplicationEndsIt()
+    {
+        QEvent leave(QEvent::ApplicationDeactivate);
+        sendKey(QEvent::KeyPress, false);
+        QCoreApplication::sendEvent(qApp, &leave);
+        QCOMPARE(endings(), 1);
+        sendKey(QEvent::KeyPress, false); // its release went elsewhere
+        QCOMPARE(beginnings(), 2);
+        sendKey(QEvent::KeyRelease, false);
+        QCOMPARE(endings(), 2);
+    }
+
+    void aWheelIsOneUntilThePress()
+    {
+        for (int i = 0; i < 4; ++i)
+            turnWheel();
+        QCOMPARE(beginnings(), 1);
+        sendKey(QEvent::KeyPress, false);
+        sendKey(QEvent::KeyRelease, false);
+        QCOMPARE(beginnings(), 2);
+        turnWheel();
+        QCOMPARE(beginnings(), 3);
+    }
 
 private:
     /// A key's press or release, of its repetition where `isRepeated`.
@@ -54,122 +160,6 @@ private:
     std::unique_ptr<QSignalSpy> m_began;
     std::unique_ptr<QSignalSpy> m_ended;
 };
-
-void tst_GestureWatcher::init()
-{
-    m_box = std::make_unique<QSpinBox>();
-    m_box->show();
-    m_watcher = std::make_unique<GestureWatcher>();
-    m_began = std::make_unique<QSignalSpy>(m_watcher.get(), &GestureWatcher::began);
-    m_ended = std::make_unique<QSignalSpy>(m_watcher.get(), &GestureWatcher::ended);
-}
-
-void tst_GestureWatcher::eachKeyIsOne()
-{
-    sendKey(QEvent::KeyPress, false);
-    QCOMPARE(beginnings(), 1);
-    sendKey(QEvent::KeyRelease, false);
-    QCOMPARE(m_ended->count(), 0); // who handles the release still belongs to it
-    QCOMPARE(endings(), 1);
-    sendKey(QEvent::KeyPress, false);
-    sendKey(QEvent::KeyRelease, false);
-    QCOMPARE(beginnings(), 2);
-    QCOMPARE(endings(), 2);
-}
-
-void tst_GestureWatcher::aHeldKeyIsOne()
-{
-    sendKey(QEvent::KeyPress, false);
-    for (int i = 0; i < 5; ++i) {
-        sendKey(QEvent::KeyRelease, true);
-        sendKey(QEvent::KeyPress, true);
-    }
-    QCOMPARE(beginnings(), 1);
-    QCOMPARE(endings(), 0);
-    sendKey(QEvent::KeyRelease, false);
-    QCOMPARE(endings(), 1);
-    // A press before the end has come is the next gesture's, which that end does not cut short.
-    sendKey(QEvent::KeyPress, false);
-    sendKey(QEvent::KeyRelease, false);
-    sendKey(QEvent::KeyPress, false);
-    QCOMPARE(beginnings(), 3);
-    QCOMPARE(endings(), 1);
-}
-
-void tst_GestureWatcher::theReleaseOfAnotherKeyDoesNotEndIt()
-{
-    sendKey(QEvent::KeyPress, false, Qt::Key_Up);
-    sendKey(QEvent::KeyPress, false, Qt::Key_Down);
-    QCOMPARE(beginnings(), 2);
-    sendKey(QEvent::KeyRelease, false, Qt::Key_Up);
-    QCOMPARE(endings(), 0);
-    sendKey(QEvent::KeyRelease, false, Qt::Key_Down);
-    QCOMPARE(endings(), 1);
-    QCOMPARE(beginnings(), 2);
-}
-
-void tst_GestureWatcher::aKeyIsTheSameWithAndWithoutShift()
-{
-    constexpr int place = 10;
-    for (int i = 1; i <= 2; ++i) {
-        sendKeyAt(place, QEvent::ShortcutOverride, Qt::Key_Exclam); // Qt makes one without a place of a KeyPress
-        QCOMPARE(beginnings(), i);
-        sendKeyAt(place, QEvent::KeyRelease, Qt::Key_1);
-        QCOMPARE(endings(), i);
-    }
-}
-
-void tst_GestureWatcher::aModifierIsPartOfTheDrag()
-{
-    for (const Qt::Key key : {Qt::Key_Shift, Qt::Key_Control, Qt::Key_Alt, Qt::Key_Meta, Qt::Key_AltGr}) {
-        QTest::mousePress(line(), Qt::LeftButton);
-        const int begun = beginnings();
-        const int ended = endings();
-        sendKey(QEvent::KeyPress, false, key);
-        sendKey(QEvent::KeyRelease, false, key);
-        QCOMPARE(beginnings(), begun);
-        QCOMPARE(endings(), ended);
-        QTest::mouseRelease(line(), Qt::LeftButton);
-        QCOMPARE(endings(), ended + 1);
-    }
-}
-
-void tst_GestureWatcher::leavingTheApplicationEndsIt()
-{
-    QEvent leave(QEvent::ApplicationDeactivate);
-    sendKey(QEvent::KeyPress, false);
-    QCoreApplication::sendEvent(qApp, &leave);
-    QCOMPARE(endings(), 1);
-    sendKey(QEvent::KeyPress, false); // its release went elsewhere
-    QCOMPARE(beginnings(), 2);
-    sendKey(QEvent::KeyRelease, false);
-    QCOMPARE(endings(), 2);
-}
-
-void tst_GestureWatcher::aDragIsOne()
-{
-    QTest::mousePress(line(), Qt::LeftButton);
-    const int begun = beginnings();
-    QVERIFY(begun >= 1);
-    QTest::mouseMove(line(), {3, 3});
-    QCOMPARE(beginnings(), begun);
-    QCOMPARE(endings(), 0);
-    QTest::mouseRelease(line(), Qt::LeftButton);
-    QCOMPARE(endings(), 1);
-    QCOMPARE(beginnings(), begun);
-}
-
-void tst_GestureWatcher::aWheelIsOneUntilThePress()
-{
-    for (int i = 0; i < 4; ++i)
-        turnWheel();
-    QCOMPARE(beginnings(), 1);
-    sendKey(QEvent::KeyPress, false);
-    sendKey(QEvent::KeyRelease, false);
-    QCOMPARE(beginnings(), 2);
-    turnWheel();
-    QCOMPARE(beginnings(), 3);
-}
 
 FAINTLINE_WINDOW_TEST(tst_GestureWatcher)
 #include "tst_GestureWatcher.moc"
