@@ -27,7 +27,7 @@ int main()
             std::copy(y.begin(), y.end(), out.begin());
         };
     };
-    const Survey made = survey(study.model, study.sprt, {6, 3, scene.stages, fixedSize}, look);
+    const SectorRounds made = visitSectors(study.model, study.sprt, {6, 3, scene.stages, fixedSize}, look);
     for (const auto &[round, sector, firstStage, result] : made.visits) {
         std::printf("round %td, sector %td: %2td scans, ", round, sector, result.stages);
         if (result.decision == SprtDecision::H1)
