@@ -150,7 +150,6 @@ void ComparePanel::buildTable()
 {
     m_table->show(comparedHeadings(tr("Frequency")));
     m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-    m_table->horizontalHeader()->setStretchLastSection(true);
     m_table->setSelectionMode(QAbstractItemView::SingleSelection);
     m_table->setSortingEnabled(true);
     m_table->sortByColumn(1, Qt::AscendingOrder); // onset

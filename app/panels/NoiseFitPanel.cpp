@@ -111,7 +111,6 @@ NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
     m_table->show(bandHeadings());
     m_table->setSmall();
     m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-    m_table->horizontalHeader()->setStretchLastSection(true);
     auto *splitter = new QSplitter(Qt::Vertical);
     splitter->addWidget(m_plot);
     splitter->addWidget(m_table);

@@ -31,10 +31,10 @@ Index levelBesideHalfWidth(double binsPerCell);
 ///   and it exists if   k (a - 1 - ln a) - ½ ln k - ln(4 m) > 0
 ///
 /// c: cells that count as one, cellLikeness; m: pieces of that length in all frames, so that 4 m is the number of choices
-/// of sides and place. On noise the level is 1.00 to 1.01 in the mean. The cells are those on the left, on the right and on both sides, at 2.5 to 7
-/// resolution cells from the path, and those on both sides at n to n + 2, n = 1.5 + what the path moves within a window
-/// (two frames); the largest level counts. On one side alone, a single line would fill these two cells. y: without the
-/// path's own leakage.
+/// of sides and place. On noise the level is 1.00 to 1.01 in the mean. The cells are those on the left, on the right and
+/// on both sides, at 2.5 to 7 resolution cells from the path, and those on both sides at n to n + 2, n = 1.5 + what the
+/// path moves within a window (two frames); the largest level counts. On one side alone, a single line would fill these
+/// two cells. y: without the path's own leakage.
 std::vector<double> areaLevels(const PathStrip &strip, const std::vector<double> &positions, double binsPerCell,
                                double cellLikeness);
 

@@ -197,14 +197,14 @@ namespace {
     }
 
     /// A part of a track, and what its path loses between the part before and this one, nat.
-    struct Part {
+    struct PathPart {
         Track track;
         double loss;
     };
 
-    struct Parts {
+    struct PathParts {
         double gain; ///< of the strongest path through all of them, nat
-        std::vector<Part> each;
+        std::vector<PathPart> each;
     };
 
     /// Two parts between which the path of their track loses less than the threshold.
@@ -458,7 +458,7 @@ namespace {
                 if (isBetterKnown(x, {s}))
                     m_betterKnown.insert(s);
             if ((isBetter || pieces.size() > 1) && areOnePath(pieces, curve))
-                if (const Parts parts = partsOf(x, strip, pieces); !parts.each.empty()) {
+                if (const PathParts parts = partsOf(x, strip, pieces); !parts.each.empty()) {
                     const Index first = x.points.front().frame;
                     const Track whole = partOf(x, std::size_t(parts.each.front().track.onsetFrame - first),
                                                std::size_t(parts.each.back().track.endFrame + 1 - first), parts.gain);
@@ -502,11 +502,11 @@ namespace {
 
         /// The parts of a track in which it is present over the floor of all signals but some, and that have sufficient
         /// evidence alone, which is their statistic.
-        Parts partsOf(const Track &x, PathStrip strip, const std::vector<std::size_t> &leftOut)
+        PathParts partsOf(const Track &x, PathStrip strip, const std::vector<std::size_t> &leftOut)
         {
             divideBySignals(strip, leftOut);
             divideBySurroundings(strip, x);
-            Parts result{gainOf(strip), {}};
+            PathParts result{gainOf(strip), {}};
             if (result.gain < sureStatistic(*m_other))
                 return result;
             m_model.ends = {.absentBefore = true, .absentAfter = true};
