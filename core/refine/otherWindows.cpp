@@ -202,11 +202,6 @@ namespace {
         double loss;
     };
 
-    struct PathParts {
-        double gain; ///< of the strongest path through all of them, nat
-        std::vector<PathPart> each;
-    };
-
     /// Two parts between which the path of their track loses less than the threshold.
     struct Join {
         std::size_t before; ///< numbers of their signals
@@ -458,10 +453,12 @@ namespace {
                 if (isBetterKnown(x, {s}))
                     m_betterKnown.insert(s);
             if ((isBetter || pieces.size() > 1) && areOnePath(pieces, curve))
-                if (const PathParts parts = partsOf(x, strip, pieces); !parts.each.empty()) {
+                if (const std::vector<PathPart> parts = partsOf(x, strip, pieces); !parts.empty()) {
                     const Index first = x.points.front().frame;
-                    const Track whole = partOf(x, std::size_t(parts.each.front().track.onsetFrame - first),
-                                               std::size_t(parts.each.back().track.endFrame + 1 - first), parts.gain);
+                    const auto statistic = [](const PathPart &part) { return part.track.peakStatistic; };
+                    const Track whole = partOf(x, std::size_t(parts.front().track.onsetFrame - first),
+                                               std::size_t(parts.back().track.endFrame + 1 - first),
+                                               statistic(std::ranges::max(parts, {}, statistic)));
                     const Curve path(whole, *m_other);
                     const std::vector<std::size_t> own = followersOf(path);
                     if (areOnePath(own, path) && isBetterKnown(whole, own)) {
@@ -473,7 +470,7 @@ namespace {
                 return;
             constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
             std::size_t last = none; // the signal that was added for the part before
-            for (const auto &[part, loss] : partsOf(x, strip, {}).each) {
+            for (const auto &[part, loss] : partsOf(x, strip, {})) {
                 const Curve alone(part, *m_other);
                 const bool isInPiece = std::ranges::any_of(pieces, [&](std::size_t s) {
                     return alone.start() >= m_curves[s].heardFrom() && alone.end() <= m_curves[s].heardUntil();
@@ -502,12 +499,12 @@ namespace {
 
         /// The parts of a track in which it is present over the floor of all signals but some, and that have sufficient
         /// evidence alone, which is their statistic.
-        PathParts partsOf(const Track &x, PathStrip strip, const std::vector<std::size_t> &leftOut)
+        std::vector<PathPart> partsOf(const Track &x, PathStrip strip, const std::vector<std::size_t> &leftOut)
         {
             divideBySignals(strip, leftOut);
             divideBySurroundings(strip, x);
-            PathParts result{gainOf(strip), {}};
-            if (result.gain < sureStatistic(*m_other))
+            std::vector<PathPart> result;
+            if (gainOf(strip) < sureStatistic(*m_other))
                 return result;
             m_model.ends = {.absentBefore = true, .absentAfter = true};
             const BothWays seen = lookBothWays(strip, m_model);
@@ -523,7 +520,7 @@ namespace {
                 const double gain = gainOf(part);
                 if (gain * evidenceLeft(part, *m_noise) < sureStatistic(*m_other))
                     continue;
-                result.each.push_back({partOf(x, from, to, gain), before});
+                result.push_back({partOf(x, from, to, gain), before});
                 loss = 0.0;
             }
             return result;
