@@ -16,7 +16,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <ranges>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -196,18 +196,38 @@ namespace {
         return part;
     }
 
-    /// A part of a track, and what its path loses between the part before and this one, nat.
+    /// A part of a track.
     struct PathPart {
         Track track;
-        double loss;
+        double absence; ///< most that the path lost at a stretch since the part before, nat
     };
 
     /// Two parts between which the path of their track loses less than the threshold.
     struct Join {
         std::size_t before; ///< numbers of their signals
         std::size_t after;
-        Track whole; ///< in the base's frames
+        std::shared_ptr<const Track> whole; ///< the track, in the base's frames
     };
+
+    /// Continues a signal to the ends of a part of a track, along that. All are in the same frames.
+    void prolong(Track &own, const Track &part, const Track &whole)
+    {
+        const auto at = [&](const auto &values, Index frame) { return values.begin() + (frame - whole.onsetFrame); };
+        const auto take = [&](auto &values, const auto &from) {
+            if (part.endFrame > own.endFrame)
+                values.insert(values.end(), at(from, own.endFrame + 1), at(from, part.endFrame + 1));
+            if (part.onsetFrame < own.onsetFrame)
+                values.insert(values.begin(), at(from, part.onsetFrame), at(from, own.onsetFrame));
+        };
+        take(own.points, whole.points);
+        take(own.smoothed, whole.smoothed);
+        own.isOpen = part.endFrame > own.endFrame ? part.isOpen : own.isOpen;
+        own.takeEndsOfPoints();
+        own.detectFrame = std::clamp(part.detectFrame, own.onsetFrame, own.detectFrame);
+        own.peakStatistic = std::max(own.peakStatistic, part.peakStatistic);
+        for (TrackPoint &point : own.points)
+            point.statistic = std::min(point.statistic, own.peakStatistic);
+    }
 
     /// Cells of the base's frames, in each of them from the lowest to the highest one.
     struct BaseCells {
@@ -276,18 +296,28 @@ namespace {
 
         AskedWindows take()
         {
-            for (const auto &[before, after, whole] : std::views::reverse(m_joins)) {
-                if (m_tracks[before].points.empty() || m_tracks[after].points.empty())
-                    continue;
-                extend(before, m_tracks[after], whole);
-                m_tracks[after] = {};
-            }
+            joinParts();
             std::erase_if(m_tracks, [](const Track &track) { return track.points.empty(); });
             numberByDetection(m_tracks);
             return {std::move(m_tracks), m_isTooLong, knowsBetter()};
         }
 
     private:
+        /// Joins those parts that no other window has replaced, to the first one of each path.
+        void joinParts()
+        {
+            std::vector<std::size_t> firsts(m_tracks.size());
+            std::iota(firsts.begin(), firsts.end(), std::size_t(0));
+            for (const auto &[before, after, whole] : m_joins) {
+                Track &own = m_tracks[firsts[before]];
+                if (own.points.empty() || m_tracks[after].points.empty())
+                    continue;
+                prolong(own, m_tracks[after], *whole);
+                m_tracks[after] = {};
+                firsts[after] = firsts[before];
+            }
+        }
+
         bool knowsBetter() const
         {
             double window = std::numeric_limits<double>::infinity();
@@ -470,30 +500,29 @@ namespace {
                 return;
             constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
             std::size_t last = none; // the signal that was added for the part before
-            for (const auto &[part, loss] : partsOf(x, strip, {})) {
+            const auto whole = std::make_shared<const Track>(inFramesOf(m_base, *m_other, x));
+            for (const auto &[part, absence] : partsOf(x, strip, {})) {
+                const std::size_t before = std::exchange(last, none);
                 const Curve alone(part, *m_other);
                 const bool isInPiece = std::ranges::any_of(pieces, [&](std::size_t s) {
                     return alone.start() >= m_curves[s].heardFrom() && alone.end() <= m_curves[s].heardUntil();
                 });
                 if (isInPiece
-                    || !((isBetter && isSeenBetter(alone))
-                         || (isShorter() && hasItsEnergyInBase(alone, part, cells)))) {
-                    last = none;
+                    || !((isBetter && isSeenBetter(alone)) || (isShorter() && hasItsEnergyInBase(alone, part, cells))))
                     continue;
-                }
                 noteMovement(alone);
                 Track known = inFramesOf(m_base, *m_other, part);
                 const auto piece =
                     std::ranges::find_if(pieces, [&](std::size_t s) { return areConnected(m_tracks[s], known, x); });
                 if (piece != pieces.end()) {
-                    extend(*piece, known, inFramesOf(m_base, *m_other, x));
-                    last = none;
-                } else {
-                    if (last != none && loss < m_other->threshold)
-                        m_joins.push_back({last, m_tracks.size(), inFramesOf(m_base, *m_other, x)});
-                    last = m_tracks.size();
-                    add(std::move(known));
+                    prolong(m_tracks[*piece], known, *whole);
+                    m_curves[*piece] = Curve(m_tracks[*piece], m_base);
+                    continue;
                 }
+                last = m_tracks.size();
+                if (before != none && absence < m_other->threshold)
+                    m_joins.push_back({before, last, whole});
+                add(std::move(known));
             }
         }
 
@@ -510,10 +539,13 @@ namespace {
             const BothWays seen = lookBothWays(strip, m_model);
             const auto isPresent = [&](std::size_t i) { return seen.endsBy[i] > 0.5f; };
             double loss = 0.0;
+            double absence = 0.0;
             for (std::size_t from = 0, to = 0; from < seen.endsBy.size(); from = to) {
-                const double before = loss;
-                for (; to < seen.endsBy.size() && isPresent(to) == isPresent(from); ++to)
-                    loss -= seen.gains[to];
+                const double before = absence;
+                for (; to < seen.endsBy.size() && isPresent(to) == isPresent(from); ++to) {
+                    loss = std::max(0.0, loss - seen.gains[to]);
+                    absence = std::max(absence, loss);
+                }
                 if (!isPresent(from) || to - from < 2)
                     continue;
                 const PathStrip part = partOf(strip, from, to);
@@ -521,7 +553,7 @@ namespace {
                 if (gain * evidenceLeft(part, *m_noise) < sureStatistic(*m_other))
                     continue;
                 result.push_back({partOf(x, from, to, gain), before});
-                loss = 0.0;
+                loss = absence = 0.0;
             }
             return result;
         }
@@ -645,30 +677,6 @@ namespace {
                     from < t && t < to && !x.isPresent(i))
                     return false;
             return true;
-        }
-
-        /// Continues a signal to the ends of a part of the other window's track, along that.
-        void extend(std::size_t s, const Track &part, const Track &whole)
-        {
-            Track &own = m_tracks[s];
-            const auto at = [&](const auto &values, Index frame) {
-                return values.begin() + (frame - whole.onsetFrame);
-            };
-            const auto take = [&](auto &values, const auto &from) {
-                if (part.endFrame > own.endFrame)
-                    values.insert(values.end(), at(from, own.endFrame + 1), at(from, part.endFrame + 1));
-                if (part.onsetFrame < own.onsetFrame)
-                    values.insert(values.begin(), at(from, part.onsetFrame), at(from, own.onsetFrame));
-            };
-            take(own.points, whole.points);
-            take(own.smoothed, whole.smoothed);
-            own.isOpen = part.endFrame > own.endFrame ? part.isOpen : own.isOpen;
-            own.takeEndsOfPoints();
-            own.detectFrame = std::clamp(part.detectFrame, own.onsetFrame, own.detectFrame);
-            own.peakStatistic = std::max(own.peakStatistic, part.peakStatistic);
-            for (TrackPoint &point : own.points)
-                point.statistic = std::min(point.statistic, own.peakStatistic);
-            m_curves[s] = Curve(own, m_base);
         }
 
         void add(Track track)
