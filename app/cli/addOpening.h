@@ -5,7 +5,7 @@
 
 namespace faintline {
 
-/// Options, in both programs, for how to read a file that does not describe itself.
+/// Adds the options, of both programs, that say how to read a file that does not describe itself.
 inline void addOpening(CLI::App &command, OpenOptions &options)
 {
     command.add_flag("--iq", options.iq, "Treat two channels as I and Q");
@@ -13,7 +13,7 @@ inline void addOpening(CLI::App &command, OpenOptions &options)
     command.add_option("--raw-rate", options.rawRateHz, "Sample rate of a raw file, Hz")->check(inRange(1e-9, 1e15));
     command.add_option("--raw-channels", options.rawChannels, "Channels of a raw file")->check(inRange(1, 1024));
     command.add_option("--raw-header", options.rawHeaderBytes, "Bytes before the first sample of a raw file")
-        ->check(inRange(0, 2147483647));
+        ->check(inRange(0, 1e15));
 }
 
 } // namespace faintline

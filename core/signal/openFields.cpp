@@ -1,8 +1,10 @@
 #include "signal/openFields.h"
 
+#include "base/wholeNumber.h"
 #include "signal/formats/SampleType.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace faintline {
 
@@ -34,11 +36,16 @@ namespace {
         return result.labelled("Type");
     }
 
+    /// Of a form; files and the command line know longer ones.
+    constexpr Index headerLimit = std::numeric_limits<int>::max();
+
     Field<OpenOptions> headerField()
     {
-        Field<OpenOptions> result = field(&OpenOptions::rawChannels, "rawHeaderBytes", "bytes", 0, 2147483647.0,
+        Field<OpenOptions> result = field(&OpenOptions::rawChannels, "rawHeaderBytes", "bytes", 0, double(headerLimit),
                                           "What precedes the first sample.");
-        result.get = [](const OpenOptions &options) { return FieldValue(int(options.rawHeaderBytes)); };
+        result.get = [](const OpenOptions &options) {
+            return FieldValue(int(std::min(options.rawHeaderBytes, headerLimit)));
+        };
         result.set = [](OpenOptions &options, const FieldValue &value) {
             options.rawHeaderBytes = std::get<int>(value);
         };
@@ -64,6 +71,10 @@ const std::vector<Field<OpenOptions>> &openFields()
 Json toJson(const OpenOptions &options)
 {
     Json json = options.rawType.empty() ? Json::object() : writeFields(options, openFields());
+    if (!options.rawType.empty())
+        json["rawHeaderBytes"] = options.rawHeaderBytes;
+    if (options.rawRateHz == 0.0) // known from the file's name
+        json.erase("rawRateHz");
     if (options.iq)
         json["iq"] = true;
     return json;
@@ -71,9 +82,25 @@ Json toJson(const OpenOptions &options)
 
 OpenOptions openOptionsFromJson(Json json, const std::string &where, std::initializer_list<const char *> otherKeys)
 {
-    if (json.contains("rawType") && json["rawType"].is_string())
-        json["rawType"] = parseSampleType(json["rawType"].get<std::string>(), jsonName(where, "rawType")).name();
     OpenOptions options;
+    if (json.contains("rawHeaderBytes")) {
+        options.rawHeaderBytes = wholeNumber<Index>(json["rawHeaderBytes"], jsonName(where, "rawHeaderBytes"));
+        if (options.rawHeaderBytes < 0)
+            throw Error(jsonName(where, "rawHeaderBytes") + " = " + std::to_string(options.rawHeaderBytes),
+                        "must be 0 or more");
+        json.erase("rawHeaderBytes");
+    }
+    if (json.contains("rawType")) {
+        const std::string name = jsonName(where, "rawType");
+        if (!json["rawType"].is_string())
+            throw Error(name, "must be a sample type, such as ci16_le");
+        if (const auto type = json["rawType"].get<std::string>(); type.empty())
+            json.erase("rawType");
+        else
+            json["rawType"] = parseSampleType(type, name).name();
+    }
+    if (json.contains("rawRateHz") && json["rawRateHz"].is_number() && json["rawRateHz"].get<double>() == 0.0)
+        json.erase("rawRateHz");
     readFields(json, openFields(), options, where, otherKeys);
     return options;
 }

@@ -260,6 +260,10 @@ private slots:
         here = there;
         here.open.iq = true;
         QVERIFY(contains(said(originOf(there), originOf(here)), "reading options: {} there, {\"iq\":true} here"));
+        SurveyOrigin earlier = originOf(there); // the same in another order, with a short name
+        earlier.reading = R"({"iq":false,"rawType":"ri16","rawRateHz":1000.0,"rawChannels":1,"rawHeaderBytes":0})";
+        there.open = {false, "ri16_le", 1000.0, 1, 0};
+        QCOMPARE(said(earlier, originOf(there)), std::string());
         here.open = {true, "ci16_le", 1e6, 2, 44};
         const SurveySettings back = settingsOf(originOf(here), "s.sqlite");
         QVERIFY(back.analysis == here.analysis && originOf(back) == originOf(here));

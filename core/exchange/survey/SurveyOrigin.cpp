@@ -43,7 +43,8 @@ void checkOrigin(const SurveyOrigin &there, const SurveyOrigin &wanted, const st
     const std::string advice = "; choose another name for this survey";
     if (there.settings != wanted.settings)
         throw Error(path, "is a survey with other settings: " + firstDifference(there, wanted) + advice);
-    if (there.reading != wanted.reading)
+    if (openOptionsFromJson(parseJson(there.reading, path), path)
+        != openOptionsFromJson(parseJson(wanted.reading, path), path))
         throw Error(path, "is a survey with other reading options: " + there.reading + " there, " + wanted.reading
                               + " here" + advice);
     if (there.version != wanted.version)
