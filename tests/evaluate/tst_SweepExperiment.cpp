@@ -152,6 +152,11 @@ private slots:
         QCOMPARE(experimentFromJson(json, "test").values, (std::vector<double>{1.0, 10.0, 100.0}));
         json["values"]["scale"] = "square";
         QVERIFY_THROWS_EXCEPTION(Error, experimentFromJson(json, "test"));
+        json["values"]["scale"] = 5;
+        QVERIFY_THROWS_EXCEPTION(Error, experimentFromJson(json, "test"));
+        json["values"]["scale"] = "log";
+        json["recording"] = "";
+        QVERIFY_THROWS_EXCEPTION(Error, experimentFromJson(json, "test"));
         json.erase("values");
         QVERIFY_THROWS_EXCEPTION(Error, experimentFromJson(json, "test"));
     }

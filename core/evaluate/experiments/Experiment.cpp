@@ -131,16 +131,16 @@ namespace {
             return std::get<double>(
                 fieldValueFromJson((*found)[key], anyNumber(jsonName(name, key), FieldKind::Number)));
         };
-        const std::string scale = found->value("scale", std::string("linear"));
+        const Json scale = found->value("scale", Json("linear"));
         if (scale != "linear" && scale != "log")
-            throw Error(jsonName(name, "scale") + " = " + scale, "must be linear or log");
+            throw Error(jsonName(name, "scale") + " = " + scale.dump(), "must be \"linear\" or \"log\"");
         const double steps = number("steps");
         if (steps != std::round(steps) || steps < 2.0 || steps > 1000.0)
             throw Error(jsonName(name, "steps") + " = " + formatNumber(steps), "must be a whole number in 2 … 1000");
         return sweepValues(parameter, number("from"), number("to"), int(steps), scale == "log");
     }
 
-    /// What only a sweep can do, which runs all of `detect`.
+    /// Refuses what only a sweep can do, because it runs all of `detect`.
     void checkIsPlain(const AnalysisSettings &settings)
     {
         checkHasNoFamily(settings, "is not possible in this experiment");
@@ -376,15 +376,15 @@ AnalysisSettings settingsOf(const Experiment &injection, std::size_t detector)
     return settings;
 }
 
-void checkExperiment(const Experiment &experiment)
+void checkExperiment(const Experiment &experiment, const std::string &where)
 {
     checkFields(experiment, Experiment::fields(experiment.kind));
     if (experiment.isSweep())
         return checkSweep(experiment);
     if (experiment.detectors.empty())
-        throw Error("detectors", "must name at least one detector");
+        throw Error(jsonName(where, "detectors"), "must name at least one detector");
     if (experiment.snrDb.empty())
-        throw Error("snrDb", "must hold at least one value");
+        throw Error(jsonName(where, "snrDb"), "must hold at least one value");
     if (experiment.isLines())
         checkLines(experiment);
     checkIsPlain(experiment.settings);
@@ -399,11 +399,10 @@ Experiment experimentFromJson(const Json &json, const std::string &where)
         throw Error(where, "must be a JSON object");
     Experiment experiment = Experiment::of(kindOf(json, where));
     readFields(json, Experiment::fields(experiment.kind), experiment, where, otherKeys[std::size_t(experiment.kind)]);
-    const auto recording = json.find("recording");
-    if (recording != json.end() ? !recording->is_string() : experiment.kind == Experiment::Kind::Injection)
-        throw Error(jsonName(where, "recording"), "must be the path of a recording");
-    if (recording != json.end())
+    if (const auto recording = json.find("recording"); recording != json.end() && recording->is_string())
         experiment.recording = recording->get<std::string>();
+    if (experiment.recording.empty() && (json.contains("recording") || experiment.kind == Experiment::Kind::Injection))
+        throw Error(jsonName(where, "recording"), "must be the path of a recording");
     if (const auto settings = json.find("settings"); settings != json.end())
         experiment.settings = settingsFromJson(settings->dump(), jsonName(where, "settings"));
     if (!experiment.isSweep()) {
@@ -414,7 +413,7 @@ Experiment experimentFromJson(const Json &json, const std::string &where)
         experiment.parameter = json["parameter"].get<std::string>();
         experiment.values = valuesFromJson(json, experiment.parameter, where);
     }
-    checkExperiment(experiment);
+    checkExperiment(experiment, where);
     return experiment;
 }
 

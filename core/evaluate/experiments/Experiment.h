@@ -124,7 +124,7 @@ std::vector<DetectorUnderTest> detectorsOf(const Experiment &experiment);
 AnalysisSettings settingsOf(const Experiment &injection, std::size_t detector);
 
 /// Throws Error naming the key.
-void checkExperiment(const Experiment &experiment);
+void checkExperiment(const Experiment &experiment, const std::string &where = {});
 
 /// Reads an experiment by its "kind"; throws Error.
 ///   {"kind": "lines", "snrDb": […], …, "detectors": [{"name": …, "settings": {…}, "whole": false}]}

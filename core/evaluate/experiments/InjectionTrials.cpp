@@ -144,6 +144,8 @@ InjectionTrials::InjectionTrials(const Experiment &experiment, RecordingPointer 
     : m_experiment(experiment)
 {
     checkExperiment(experiment);
+    if (!recording)
+        throw Error("recording", "must be the path of a recording");
     if (experiment.settings.noise.causal)
         throw fieldError("noise.causal", "true",
                          "is not possible in this experiment, which estimates the noise once for all trials");
