@@ -277,7 +277,11 @@ void EventReviews::fillContextMenu(QMenu &menu, double seconds, double hz)
 /// What is said next is said about that event.
 void EventReviews::fillContextMenu(QMenu &menu, int event)
 {
-    m_table.setSelectedEvent(event);
+    const std::vector<int> selected = m_table.selectedEvents();
+    if (std::ranges::find(selected, event) == selected.end())
+        m_table.setSelectedEvent(event);
+    if (m_table.selectedEvent() == 0) // the list's filter hides it
+        return;
     menu.addSection(tr("Event %1").arg(event));
     menu.addActions(m_eventActions);
 }

@@ -114,6 +114,7 @@ void SurveyPanel::show(SurveyModel::Content content)
     if (failed > 0)
         summary += tr(", %1 could not be analysed").arg(qlonglong(failed));
     m_summary->setText(summary);
+    followSelection(); // gone with the former content, without a signal
     emit opened();
 }
 

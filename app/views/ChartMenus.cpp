@@ -58,9 +58,14 @@ ChartMenus::ChartMenus(WindowParts &parts, QWidget *window) : QObject(window), m
         offer(chart);
     for (StripPlot *chart : window->findChildren<StripPlot *>())
         offer(chart);
-    for (ColumnTable *table : window->findChildren<ColumnTable *>())
-        connect(table->addAction(tr("Save table…")), &QAction::triggered, this,
-                [this, table] { ask(*table, QStringLiteral("table.csv")); });
+    for (ColumnTable *table : window->findChildren<ColumnTable *>()) {
+        connect(table->addAction(tr("Save table…")), &QAction::triggered, this, [this, table] {
+            if (const QString path = QFileDialog::getSaveFileName(m_window, tr("Save table"),
+                                                                  QStringLiteral("table.csv"), tr("Numbers (*.csv)"));
+                !path.isEmpty())
+                saveTo(*table, path);
+        });
+    }
     connect(&parts.thresholdPlot(), &ExceedancePlot::contextMenuRequested, this, [this](QMenu *menu) {
         menu->addSeparator();
         menu->addAction(tr("Save chart…"), this, [this] { ask(m_parts.thresholdPlot()); });
@@ -83,9 +88,9 @@ QString ChartMenus::captionFor(const QWidget &chart) const
     return captionOf(m_parts.document(), isOfInput ? CaptionOf::Input : CaptionOf::Statistic);
 }
 
-void ChartMenus::ask(QWidget &chart, const QString &suggestedName)
+void ChartMenus::ask(QWidget &chart)
 {
-    const QString path = QFileDialog::getSaveFileName(m_window, tr("Save chart"), suggestedName,
+    const QString path = QFileDialog::getSaveFileName(m_window, tr("Save chart"), QStringLiteral("chart.svg"),
                                                       tr("Drawing (*.svg);;Document (*.pdf);;Picture (*.png);;Numbers "
                                                          "(*.csv)"));
     if (!path.isEmpty())

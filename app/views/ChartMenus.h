@@ -34,7 +34,7 @@ signals:
     void failed(const faintline::Error &error);
 
 private:
-    void ask(QWidget &chart, const QString &suggestedName = QStringLiteral("chart.svg"));
+    void ask(QWidget &chart);
     QString captionFor(const QWidget &chart) const;
 
     WindowParts &m_parts;

@@ -217,6 +217,26 @@ private slots:
         QVERIFY(m_activated.empty());
     }
 
+    void aSelectionIsAnnouncedOnceWhateverTookIt()
+    {
+        const QSignalSpy announced(m_table.get(), &EventTable::selectionChanged);
+        const QTableView *table = m_table->table();
+        QTest::mouseClick(table->viewport(), Qt::LeftButton, {},
+                          table->visualRect(table->model()->index(1, EventModel::Onset)).center());
+        QCOMPARE(m_table->selectedEvent(), 3);
+        QCOMPARE(announced.size(), 1);
+        m_table->setSelectedEvent(3);
+        QCOMPARE(announced.size(), 1);
+        m_table->filter()->setText("f>1000"); // hides it
+        QCOMPARE(m_table->selectedEvent(), 0);
+        QCOMPARE(announced.size(), 2);
+        m_table->filter()->clear();
+        m_table->setSelectedEvent(2);
+        QCOMPARE(announced.size(), 3);
+        m_table->setEvents({test::event(1, 5.0, 20.0, 950.0)});
+        QCOMPARE(announced.size(), 4);
+    }
+
     void selectingFromOutsideIsSilent()
     {
         m_table->setSelectedEvent(2);

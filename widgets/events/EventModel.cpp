@@ -123,7 +123,7 @@ std::vector<ShownColumn<Event>> EventModel::columns() const
     ShownColumn<Event> snr = ofFile(
         "snr_db", [](E event) { return orDash(event.snrDb, [](double value) { return numberText(value, 1); }); },
         m_snrUnit);
-    snr.key = [](E event) { return std::isfinite(event.snrDb) ? event.snrDb : -never; };
+    snr.key = [](E event) { return event.snrDb; };
     ShownColumn<Event> id = ofFile("event", [this](E event) { return idText(event); });
     id.key = [](E event) { return event.id; };
 

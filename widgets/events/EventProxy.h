@@ -1,18 +1,17 @@
 #pragma once
 
 #include "widgets/events/EventFilter.h"
-
-#include <QSortFilterProxyModel>
+#include "widgets/table/ColumnTable.h"
 
 namespace faintline {
 
 /// Sorts an EventModel by value and filters it.
-class EventProxy : public QSortFilterProxyModel
+class EventProxy : public ColumnProxy
 {
     Q_OBJECT
 
 public:
-    using QSortFilterProxyModel::QSortFilterProxyModel;
+    using ColumnProxy::ColumnProxy;
 
     void setFilter(const EventFilter &filter);
     const EventFilter &filter() const { return m_filter; }

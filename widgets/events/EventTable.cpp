@@ -1,5 +1,6 @@
 #include "widgets/events/EventTable.h"
 
+#include "widgets/base/labelText.h"
 #include "widgets/events/EventCard.h"
 #include "widgets/events/EventModel.h"
 #include "widgets/events/EventProxy.h"
@@ -15,6 +16,8 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace faintline {
 
@@ -56,12 +59,8 @@ EventTable::EventTable(QWidget *parent)
     layout->addWidget(m_unmatched);
     setUpUnmatched();
     updateCount();
-    const auto follow = [this] { // the current row is told apart, after the selection
-        updateCard();
-        emit selectionChanged();
-    };
-    connect(m_table->selectionModel(), &QItemSelectionModel::selectionChanged, this, follow);
-    connect(m_table->selectionModel(), &QItemSelectionModel::currentChanged, this, follow);
+    connect(m_table->selectionModel(), &QItemSelectionModel::selectionChanged, this, &EventTable::followSelection);
+    connect(m_table->selectionModel(), &QItemSelectionModel::currentChanged, this, &EventTable::followSelection);
     connect(m_model, &QAbstractItemModel::dataChanged, this, &EventTable::updateCard);
     connect(m_model, &QAbstractItemModel::headerDataChanged, this, &EventTable::updateCard);
     updateCard();
@@ -138,8 +137,18 @@ void EventTable::setEvents(const std::vector<Event> &events)
     }
     widenColumns();
     setSelectedEvent(selected);
-    updateCard(); // new contents take the selection away without a signal
     updateCount();
+}
+
+/// Announces a selection once, whatever took it: new contents and filters do so without a signal of the table's.
+void EventTable::followSelection()
+{
+    if (m_isChoosing) // the current row is told apart from the selection
+        return;
+    updateCard();
+    std::pair now(selectedEvent(), selectedEvents());
+    if (std::exchange(m_announced, now) != now)
+        emit selectionChanged();
 }
 
 /// Lines are told apart by frequency and SNR, targets by when they were confirmed.
@@ -172,30 +181,36 @@ void EventTable::narrowColumns()
     }
 }
 
-/// Width of a cell's whole text.
+/// Width of a cell's whole text, or of the widest one with as many digits.
 int EventTable::widthOf(int row, int column) const
 {
     const int room = 2 * (style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, m_table) + 1) + 2;
-    return m_table->fontMetrics().horizontalAdvance(m_model->index(row, column).data().toString()) + room;
+    QString text = m_model->index(row, column).data().toString();
+    for (QChar &letter : text)
+        if (letter.isDigit())
+            letter = QLatin1Char('0');
+    return m_table->fontMetrics().horizontalAdvance(text) + room;
 }
 
 /// Numbers are never truncated: columns fit their smallest and largest values.
 void EventTable::widenColumns()
 {
     const int rows = m_model->rowCount();
-    for (int column = EventModel::Id; rows > 0 && column <= EventModel::Drift; ++column) {
+    for (int column = EventModel::Id; column <= EventModel::Drift; ++column) {
+        if (m_table->isColumnHidden(column))
+            continue;
         const auto value = [&](int row) { return m_model->index(row, column).data(EventModel::SortRole).toDouble(); };
-        int least = 0;
-        int most = 0;
-        for (int row = 1; row < rows; ++row) {
-            least = value(row) < value(least) ? row : least;
-            most = value(row) > value(most) ? row : most;
+        int least = -1;
+        int most = -1;
+        for (int row = 0; row < rows; ++row) {
+            if (!std::isfinite(value(row)))
+                continue;
+            least = least < 0 || value(row) < value(least) ? row : least;
+            most = most < 0 || value(row) > value(most) ? row : most;
         }
-        for (const int row : {least, most}) {
-            const int width = widthOf(row, column);
-            if (!m_table->isColumnHidden(column) && width > m_table->columnWidth(column))
-                m_table->setColumnWidth(column, width);
-        }
+        for (const int row : {least, most})
+            if (row >= 0)
+                m_table->setColumnWidth(column, std::max(m_table->columnWidth(column), widthOf(row, column)));
     }
 }
 
@@ -212,6 +227,7 @@ void EventTable::setReviews(const std::vector<EventReview> &reviews)
     m_table->setColumnWidth(EventModel::Id, width);
     if (selected != 0 && selectedEvent() != selected)
         setSelectedEvent(selected);
+    followSelection();
     updateCount();
 }
 
@@ -269,6 +285,7 @@ void EventTable::setSelectedEvent(int id)
     if (!index.isValid()) {
         m_table->clearSelection();
         m_table->setCurrentIndex({});
+        followSelection();
         return;
     }
     choose(index);
@@ -278,7 +295,10 @@ void EventTable::setSelectedEvent(int id)
 /// Selects only this row, regardless of modifier keys.
 void EventTable::choose(const QModelIndex &row)
 {
+    m_isChoosing = true;
     m_table->selectionModel()->setCurrentIndex(row, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+    m_isChoosing = false;
+    followSelection();
 }
 
 void EventTable::activate(int proxyRow)
@@ -312,6 +332,7 @@ void EventTable::applyFilter(const QString &text)
 {
     const EventFilter filter(text);
     m_proxy->setFilter(filter);
+    followSelection();
     updateCount();
 }
 
@@ -323,13 +344,14 @@ void EventTable::setPreview(bool isPreview)
 
 void EventTable::updateCount()
 {
+    constexpr int longestUnknown = 16; // letters
     const auto all = int(m_model->events().size());
     const int shown = m_proxy->rowCount();
     const QString &unknown = m_proxy->filter().misunderstood();
     const QString count = shown < all ? tr("%1 of %2 events").arg(shown).arg(all)
                           : all == 1  ? tr("1 event")
                                       : tr("%1 events").arg(all);
-    m_count->setText(!unknown.isEmpty() ? tr("“%1”?").arg(unknown)
+    m_count->setText(!unknown.isEmpty() ? tr("“%1”?").arg(labelText(unknown, longestUnknown))
                      : m_isPreview      ? tr("Preview: %1").arg(count)
                                         : count);
     static_cast<QStackedLayout *>(layout()->itemAt(1)->layout())->setCurrentIndex(all > 0 ? 1 : 0);

@@ -8,6 +8,7 @@
 #include <QWidget>
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 class QLabel;
@@ -31,7 +32,7 @@ class EventTable : public QWidget
 public:
     explicit EventTable(QWidget *parent = nullptr);
 
-    /// Keeps the selection if the event with that id still exists. Emits nothing.
+    /// Keeps the selection if the event with that id still exists.
     void setEvents(const std::vector<Event> &events);
     void setReviews(const std::vector<EventReview> &reviews); ///< of these events
     void setStatisticUnit(const QString &unit);
@@ -53,7 +54,7 @@ public:
     QSize sizeHint() const override { return {420, 220}; }
 
 public slots:
-    /// Selects a row without emitting; for events selected elsewhere.
+    /// Selects a row without going there; for events selected elsewhere. None, if there is no such event in the list.
     void setSelectedEvent(int id);
     void selectNext();
     void selectPrevious();
@@ -61,7 +62,7 @@ public slots:
 signals:
     /// Emitted on click, Enter, N or Shift+N: views should go to the event.
     void eventActivated(int id);
-    void selectionChanged();           ///< by whomever: views mark `selectedEvent`
+    void selectionChanged();           ///< by whomever, also because an event is gone: views mark `selectedEvent`
     void unmatchedActivated(int line); ///< index of the line in `setUnmatched`
     void noteRequested();              ///< emitted on a double-click in the notes column, for the selected event
 
@@ -79,6 +80,7 @@ private:
     void applyFilter(const QString &text);
     void updateCount();
     void updateCard();
+    void followSelection();
     void orderColumns();
     void narrowColumns();
     void widenColumns();
@@ -94,6 +96,8 @@ private:
     QLabel *m_unmatchedTitle;
     QListWidget *m_unmatched;
     bool m_isPreview = false;
+    bool m_isChoosing = false;
+    std::pair<int, std::vector<int>> m_announced{}; ///< the selected event, and all selected ones
 };
 
 } // namespace faintline

@@ -43,6 +43,11 @@ void ColumnModel::clear()
 {
     beginResetModel();
     m_rows = 0;
+    for (ShownColumn<int> &column : m_columns) { // which hold the values
+        column.text = {};
+        column.key = {};
+        column.colour = {};
+    }
     endResetModel();
 }
 
@@ -59,12 +64,8 @@ QVariant ColumnModel::data(const QModelIndex &index, int role) const
     switch (role) {
     case Qt::DisplayRole:
         return column.text(index.row());
-    case SortRole: {
-        if (!column.key)
-            return column.text(index.row());
-        const double key = column.key(index.row());
-        return std::isnan(key) ? std::numeric_limits<double>::infinity() : key;
-    }
+    case SortRole:
+        return column.key ? QVariant(column.key(index.row())) : column.text(index.row());
     case Qt::TextAlignmentRole:
         return QVariant::fromValue(column.alignment | Qt::AlignVCenter);
     case Qt::ForegroundRole:

@@ -6,18 +6,32 @@
 #include <QClipboard>
 #include <QGuiApplication>
 #include <QHeaderView>
-#include <QSortFilterProxyModel>
 
 #include <algorithm>
+#include <cmath>
 
 namespace faintline {
 
 namespace {
 
-    /// As a field of CSV, with the minus sign that programs read.
+    /// A text with its numbers as programs read them: "−3·10⁻²⁵" as "-3e-25".
+    QString plainText(QString text)
+    {
+        static const QString superscripts = QStringLiteral("⁰¹²³⁴⁵⁶⁷⁸⁹⁻");
+        text.replace(QChar(0x2212), QLatin1Char('-'));
+        const QString ten = QStringLiteral("·10");
+        for (auto at = text.indexOf(ten); at >= 0; at = text.indexOf(ten, at + 1)) {
+            text.replace(at, ten.size(), QLatin1Char('e'));
+            for (auto i = at + 1; i < text.size() && superscripts.contains(text[i]); ++i) {
+                const auto digit = superscripts.indexOf(text[i]);
+                text[i] = digit < 10 ? QChar('0' + int(digit)) : QLatin1Char('-');
+            }
+        }
+        return text;
+    }
+
     QString csvField(QString text)
     {
-        text.replace(QChar(0x2212), QLatin1Char('-'));
         const bool isPlain = std::ranges::none_of(text, [](QChar c) { return c == ',' || c == '"' || c == '\n'; });
         return isPlain ? text : QLatin1Char('"') + text.replace('"', QLatin1String("\"\"")) + QLatin1Char('"');
     }
@@ -53,13 +67,25 @@ ColumnTable::ColumnTable(const QString &accessibleName, QWidget *parent)
     setContextMenuPolicy(Qt::ActionsContextMenu);
 }
 
-void ColumnTable::show(ColumnModel &model, QSortFilterProxyModel *proxy)
+void ColumnTable::show(ColumnModel &model, ColumnProxy *proxy)
 {
     if (proxy || !m_proxy)
-        m_proxy = proxy ? proxy : new QSortFilterProxyModel(this);
+        m_proxy = proxy ? proxy : new ColumnProxy(this);
     m_proxy->setSortRole(ColumnModel::SortRole);
+    m_proxy->setDynamicSortFilter(false); // a row stays where it is when it changes
     m_proxy->setSourceModel(&model);
     setModel(m_proxy);
+}
+
+bool ColumnProxy::lessThan(const QModelIndex &left, const QModelIndex &right) const
+{
+    const auto isBlank = [](const QModelIndex &index) {
+        const QVariant key = index.data(ColumnModel::SortRole);
+        return key.typeId() == QMetaType::Double && std::isnan(key.toDouble());
+    };
+    if (isBlank(left) || isBlank(right)) // last in both orders
+        return isBlank(left) != isBlank(right) && isBlank(right) == (sortOrder() == Qt::AscendingOrder);
+    return QSortFilterProxyModel::lessThan(left, right);
 }
 
 void ColumnTable::setSmall(int rowHeight)
@@ -98,7 +124,7 @@ QStringList ColumnTable::textsOf(int row) const
 {
     QStringList texts;
     for (const int column : shownColumns())
-        texts << model()->index(row, column).data().toString();
+        texts << plainText(model()->index(row, column).data().toString());
     return texts;
 }
 
@@ -123,6 +149,8 @@ void ColumnTable::copy() const
     for (int row = 0; row < model()->rowCount(); ++row)
         if (selectionModel()->rowIntersectsSelection(row))
             lines << textsOf(row).join(QLatin1Char('\t'));
+    if (lines.isEmpty())
+        return;
     QGuiApplication::clipboard()->setText(lines.join(QLatin1Char('\n')));
 }
 

@@ -2,11 +2,20 @@
 
 #include "widgets/table/ColumnModel.h"
 
+#include <QSortFilterProxyModel>
 #include <QTableView>
 
-class QSortFilterProxyModel;
-
 namespace faintline {
+
+/// Orders a ColumnModel by its keys; rows without one are last in both orders.
+class ColumnProxy : public QSortFilterProxyModel
+{
+public:
+    using QSortFilterProxyModel::QSortFilterProxyModel;
+
+protected:
+    bool lessThan(const QModelIndex &left, const QModelIndex &right) const override;
+};
 
 /// A table to read: rows are selected, sorted by a click on a heading (a third click restores their order), and copied
 /// by Ctrl+C.
@@ -18,7 +27,7 @@ public:
     explicit ColumnTable(const QString &accessibleName, QWidget *parent = nullptr);
 
     /// Shows a model through a proxy that sorts by `ColumnModel::SortRole`; without a proxy, one of its own.
-    void show(ColumnModel &model, QSortFilterProxyModel *proxy = nullptr);
+    void show(ColumnModel &model, ColumnProxy *proxy = nullptr);
     /// Shows values.
     void show(const std::vector<TableHeading> &headings, std::vector<std::vector<TableCell>> rows = {})
     {
@@ -33,7 +42,7 @@ public:
     int sourceRow(const QModelIndex &index) const;
     std::vector<int> selectedSourceRows() const; ///< in the order shown
 
-    /// The shown columns with their headings, of all rows.
+    /// The shown columns and rows as they are shown, with their headings; numbers as programs read them.
     std::string csv() const;
 
 private:
@@ -42,7 +51,7 @@ private:
     QStringList textsOf(int row) const;
 
     ColumnModel *m_own;
-    QSortFilterProxyModel *m_proxy = nullptr;
+    ColumnProxy *m_proxy = nullptr;
 };
 
 } // namespace faintline
