@@ -14,8 +14,8 @@ namespace faintline {
 
 /// √n times the standard deviation of the logarithm of the median of n exponential cells: 1/ln 2, rounded.
 inline constexpr double inverseLn2 = 1.44;
-/// y at which a cell counts at most, so that a line or a burst cannot raise a mean: noise exceeds it in 0.7 % of cells,
-/// and the mean of the others gives the mean of all (truncatedMean).
+/// Power over the noise's from which on a cell is left out of a mean, or is cut to it, so that a line or a burst cannot
+/// raise it: noise exceeds it in 0.7 % of cells, and the mean of the others gives the mean of all (truncatedMean).
 inline constexpr float lineLimit = 5.0f;
 /// Neighbouring cells that count as one, because the window's main lobe correlates them.
 inline constexpr double cellsAlike = 1.5;
@@ -78,17 +78,17 @@ inline constexpr Index smoothHalfWidthCells = 5;     ///< half the window of the
 inline constexpr float correctionLimitLn = 0.5f;     ///< of a correction: 2 dB
 inline constexpr double significantDeviations = 4.0; ///< standard errors of a smooth correction, once in 16 000 bins
 inline constexpr double medianErrorRatio = 1.25;  ///< error of a median over that of a mean of normal values, √(π/2)
-inline constexpr double alarmEvidenceNats = 12.0; ///< nat of a false alarm, at usual rates …
-inline constexpr double alarmsPerRareExcess = 50.0; ///< … and d ln rate/dε of those
+inline constexpr double alarmEvidenceNats = 12.0; ///< statistic of a false alarm at usual rates
+inline constexpr double alarmsPerRareExcess = 50.0; ///< d ln(rate)/dε of these, for an excess ε of y
 inline constexpr Index edgeWindowsTogether = 8;     ///< of a run of frames that are read
 inline constexpr Index edgeWindowsApart = 2;        ///< within which frames may still be correlated
 
 // ---- stop bands ----------------------------------------------------------------------------------------------------
 
-inline constexpr Index stopSpectrumSamples = 1024; ///< of a spectrum: bins 1/512 of the band apart
-inline constexpr Index stopSpectraPerTime = 8;     ///< of which the median is taken
-inline constexpr Index fewestStopTimes = 16;       ///< from which a correlation of ¾ is beyond chance
-inline constexpr Index mostStopTimes = 64;
+inline constexpr Index stopSpectrumSamples = 1024;               ///< of a spectrum: bins 1/512 of the band apart
+inline constexpr Index stopSpectraPerTime = 8;                   ///< of which the median is taken
+inline constexpr Index fewestStopTimes = 16;                     ///< from which a correlation of ¾ is beyond chance
+inline constexpr Index mostStopTimes = 64;                       ///< that are compared, at most
 inline constexpr double stopFallNats = 2.0 * std::numbers::ln10; ///< 20 dB
 inline constexpr double steadyLevelNats = 0.1;       ///< standard deviation of a level that nothing can follow
 inline constexpr double followingCorrelation = 0.75; ///< of the level with that of the band beside it …
@@ -96,7 +96,7 @@ inline constexpr double followingSlope = 0.4;        ///< … and its slope, in 
 
 // ---- power files and pings -----------------------------------------------------------------------------------------
 
-inline constexpr Index powerLevelCells = 500;      ///< from which a frame's level is estimated, at most: to 6 %
+inline constexpr Index powerLevelCells = 500;      ///< of which a tenth to all give a frame's level: all to 6 %
 inline constexpr double pingShapeValues = 4000.0;  ///< from which each cell of the beams' common shape is estimated
 inline constexpr Index fewestPingLevelCells = 100; ///< from which the level of a ping is estimated: to 14 %
 inline constexpr double fewestRangeValues = 16.0;  ///< around a cell, from which its own level is refined

@@ -18,9 +18,9 @@ struct TrackPoint {
 };
 
 /// Sets the offsets of the first `count` points of a path of a line from the evidence beside it in the frames around:
-/// the vertex of the parabola through Σ λ in the cells below, on and above the path, over ±fittedPoints frames. `lambda(i, cell)`:
-/// log-likelihood ratio in the frame of point i. λ is close to an amplitude, whose main lobe such a parabola fits to
-/// 0.03 bin (Hann, two bins a cell).
+/// the vertex of the parabola through Σ λ in the cells below, on and above the path, over ±fittedPoints frames.
+/// `lambda(i, cell)`: log-likelihood ratio in the frame of point i. λ is close to an amplitude, whose main lobe such a
+/// parabola fits to 0.03 bin (Hann, two bins a cell).
 template <class Lambda>
 void measureOffsets(std::vector<TrackPoint> &path, std::size_t count, Lambda lambda)
 {

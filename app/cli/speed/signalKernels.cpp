@@ -117,15 +117,21 @@ namespace {
                 {twoThreads, frames, 2, [work, two] { work->spectrogram->read(0, frames, work->out, two); }}};
     }
 
+    /// Of the transform of a frame.
+    int lengthOf(const FrameGeometry &geometry)
+    {
+        return Fft::fastLength(int(std::lround(geometry.binsPerCell * geometry.windowSamples)));
+    }
+
     /// Half an hour of noise in windows of 2 s, against its transforms and its states alone.
     std::vector<SpeedForm> detectionForms()
     {
         constexpr std::size_t framesAtOnce = 16;
         struct Work {
             explicit Work(const Analysis &analysis)
-                : fft(Fft::fastLength(2 * analysis.frames->geometry().windowSamples), Fft::Input::Real),
-                  buffer(fft.buffer()), detector(analysis.model, {ResetLaw::Fixed, analysis.calibration->lnK}),
-                  cells(analysis.grid().size()), y(exponentials(framesAtOnce * std::size_t(cells))), statistic(y.size())
+                : fft(lengthOf(analysis.frames->geometry()), Fft::Input::Real), buffer(fft.buffer()),
+                  detector(analysis.model, {ResetLaw::Fixed, analysis.calibration->lnK}), cells(analysis.grid().size()),
+                  y(exponentials(framesAtOnce * std::size_t(cells))), statistic(y.size())
             {
             }
             Fft fft;

@@ -19,8 +19,8 @@ struct FilterbankHeader {
     Index frames = 0;
 };
 
-/// Sets axes and start time, with a note on channels that excludeDc leaves out: frequencies ascend, in Hz; the time of a frame is its middle. Throws Error naming `path`
-/// and the invalid value.
+/// Sets axes and start time, with a note on channels that excludeDc leaves out: frequencies ascend, in Hz; the time of a
+/// frame is its middle. Throws Error naming `path` and the invalid value.
 void setFilterbankAxes(PowerInfo &info, const FilterbankHeader &header, const std::string &path);
 
 /// Sets values of a part to NaN (not observed) in channels that hold a receiver's DC offset, unless the part keeps them

@@ -122,17 +122,8 @@ private slots:
     /// The strongest event is too short for a fit: the pass is taken, or named.
     void aWhistleIsPassedOver()
     {
-        QCOMPARE(run(QStringList{"detect", "whistle.wav", "--events", "whistle.csv"} + settings).code, 0);
-        const auto rows = numbersOf(content("whistle.csv"));
-        const int whistle = numberNear(rows, 330.0), pass = numberNear(rows, 210.0);
-        QVERIFY(whistle > 0 && pass > 0);
-        QVERIFY(rows[std::size_t(whistle - 1)][6] > rows[std::size_t(pass - 1)][6]); // the stronger
-
-        const Outcome told = run(QStringList{"doppler", "whistle.wav"} + settings);
-        QVERIFY2(told.code == 0, told.err.constData());
-        QVERIFY2(told.out.startsWith("event " + QByteArray::number(pass) + ", the strongest of ")
-                     && told.out.contains(" that can be fitted: "),
-                 told.out.constData());
+        int whistle = 0, pass = 0;
+        passIsTakenBesideAStronger("whistle", whistle, pass);
         const Outcome asked =
             run(QStringList{"doppler", "whistle.wav", "--event", QString::number(whistle)} + settings);
         QCOMPARE(asked.code, 2);
@@ -144,17 +135,8 @@ private slots:
     /// Its fit has no errors, but says nothing: no speed explains a constant frequency better than none.
     void aSteadyToneIsPassedOver()
     {
-        QCOMPARE(run(QStringList{"detect", "steady.wav", "--events", "steady.csv"} + settings).code, 0);
-        const auto rows = numbersOf(content("steady.csv"));
-        const int tone = numberNear(rows, 330.0), pass = numberNear(rows, 210.0);
-        QVERIFY(tone > 0 && pass > 0);
-        QVERIFY(rows[std::size_t(tone - 1)][6] > rows[std::size_t(pass - 1)][6]); // the stronger
-
-        const Outcome told = run(QStringList{"doppler", "steady.wav"} + settings);
-        QVERIFY2(told.code == 0, told.err.constData());
-        QVERIFY2(told.out.startsWith("event " + QByteArray::number(pass) + ", the strongest of ")
-                     && told.out.contains(" that can be fitted: "),
-                 told.out.constData());
+        int tone = 0, pass = 0;
+        passIsTakenBesideAStronger("steady", tone, pass);
         const Outcome asked = run(QStringList{"doppler", "steady.wav", "--event", QString::number(tone)} + settings);
         QVERIFY2(asked.code == 0, asked.err.constData()); // what was asked for, with its note
         QVERIFY2(asked.out.contains("No Doppler shift"), asked.out.constData());
@@ -201,6 +183,24 @@ private slots:
     }
 
 private:
+    /// The pass at 210 Hz of a recording is fitted, although the event at 330 Hz is stronger; their numbers.
+    void passIsTakenBesideAStronger(const QString &name, int &stronger, int &pass)
+    {
+        const QString recording = name + ".wav";
+        QCOMPARE(run(QStringList{"detect", recording, "--events", name + ".csv"} + settings).code, 0);
+        const auto rows = numbersOf(content(name + ".csv"));
+        stronger = numberNear(rows, 330.0);
+        pass = numberNear(rows, 210.0);
+        QVERIFY(stronger > 0 && pass > 0);
+        QVERIFY(rows[std::size_t(stronger - 1)][6] > rows[std::size_t(pass - 1)][6]);
+
+        const Outcome told = run(QStringList{"doppler", recording} + settings);
+        QVERIFY2(told.code == 0, told.err.constData());
+        QVERIFY2(told.out.startsWith("event " + QByteArray::number(pass) + ", the strongest of ")
+                     && told.out.contains(" that can be fitted: "),
+                 told.out.constData());
+    }
+
     static constexpr double speedOfSound = 343.0;
     static constexpr int rate = 1000;
     static constexpr double length = 120.0; ///< s
