@@ -8,6 +8,7 @@ void EventProxy::setFilter(const EventFilter &filter)
 {
     m_filter = filter;
     invalidateFilter();
+    sort(sortColumn(), sortOrder()); // rows that come back are last otherwise
 }
 
 bool EventProxy::filterAcceptsRow(int row, const QModelIndex &) const

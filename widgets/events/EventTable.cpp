@@ -331,7 +331,9 @@ void EventTable::selectPrevious()
 void EventTable::applyFilter(const QString &text)
 {
     const EventFilter filter(text);
+    m_isChoosing = true; // another row is the current one for a moment
     m_proxy->setFilter(filter);
+    m_isChoosing = false;
     followSelection();
     updateCount();
 }

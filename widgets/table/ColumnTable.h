@@ -26,6 +26,7 @@ class ColumnTable : public QTableView
 public:
     explicit ColumnTable(const QString &accessibleName, QWidget *parent = nullptr);
 
+    using QTableView::show;
     /// Shows a model through a proxy that sorts by `ColumnModel::SortRole`; without a proxy, one of its own.
     void show(ColumnModel &model, ColumnProxy *proxy = nullptr);
     /// Shows values.
