@@ -153,6 +153,7 @@ namespace {
             analysis.tracks = std::move(view.tracks);
             numberByDetection(analysis.tracks);
             analysis.areas = joinAreas(std::move(view.areas));
+            analysis.explainedByNoise = std::move(view.explainedByNoise);
         } else if (cutsOnly(analysis) && !request.isTrial) {
             analysis.tracks = cutToSignals(analysis, std::move(analysis.tracks), context.part(0.0, 0.5));
         }

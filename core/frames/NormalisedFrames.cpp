@@ -6,6 +6,19 @@
 
 namespace faintline {
 
+double FrameGeometry::likeness() const
+{
+    return isOfSpectra() ? cellLikeness(sampleWindow(window, windowSamples)) : 1.0;
+}
+
+double FrameGeometry::overlap() const
+{
+    if (!isOfSpectra())
+        return 1.0;
+    const double scatter = overlapFactor(sampleWindow(window, windowSamples), int(framesPerWindow));
+    return scatter * scatter;
+}
+
 FrameGeometry NormalisedFrames::geometry() const
 {
     FrameGeometry geometry;

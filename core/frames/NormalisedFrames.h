@@ -26,6 +26,8 @@ struct FrameGeometry {
     bool hasRealEnds = false;   ///< Spectrogram::hasRealEnds
 
     bool isOfSpectra() const { return windowSamples > 0; }
+    double likeness() const; ///< cells that count as one (cellLikeness); 1 for frames that are no spectra
+    double overlap() const;  ///< factor on the variance of means over many frames, overlapFactor²; 1 for those
     /// The samples of the recording in a frame: from beginOf to endOf - 1.
     Index beginOf(Index frame) const { return firstSample + frame * hopSamples; }
     Index endOf(Index frame) const { return beginOf(frame) + windowSamples; }

@@ -1,7 +1,10 @@
 #include "refine/levelBeside.h"
 
+#include "noise/levels.h"
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -90,6 +93,15 @@ namespace {
         Index m_far;
         std::vector<float> m_values;
     };
+
+    /// Mean movement of a path within a window of two frames.
+    double movedInWindow(const std::vector<double> &positions)
+    {
+        double moved = 0.0;
+        for (std::size_t i = 2; i < positions.size(); ++i)
+            moved += std::abs(positions[i] - positions[i - 2]) / double(positions.size() - 2);
+        return moved;
+    }
 
     constexpr Index areaSampledFrames = 256; ///< of a piece of time
     constexpr double mainLobeCells = 1.5;
@@ -187,6 +199,17 @@ Index levelBesideHalfWidth(double binsPerCell)
     return Index(std::ceil(besideCells * binsPerCell));
 }
 
+PathStrip withoutLine(PathStrip strip, const std::vector<double> &positions, const std::vector<double> &levels,
+                      WindowShape window, double binsPerCell)
+{
+    for (Index at = 0; at < strip.frameCount(); ++at)
+        for (Index k = 0; k < strip.width(); ++k) {
+            const double apart = std::abs(double(strip.firstCell(at) + k) - positions[std::size_t(at)]);
+            strip.row(at)[k] /= float(1.0 + levels[std::size_t(at)] * leakageAt(window, apart / binsPerCell));
+        }
+    return strip;
+}
+
 std::vector<double> levelBeside(const PathStrip &strip, double binsPerCell)
 {
     std::vector<double> levels(std::size_t(strip.frameCount()), 1.0);
@@ -208,10 +231,7 @@ std::vector<double> levelBeside(const PathStrip &strip, double binsPerCell)
 std::vector<double> areaLevels(const PathStrip &strip, const std::vector<double> &positions, double binsPerCell,
                                double cellLikeness)
 {
-    double moved = 0.0;
-    for (std::size_t i = 2; i < positions.size(); ++i)
-        moved += std::abs(positions[i] - positions[i - 2]) / double(positions.size() - 2);
-    const double near = mainLobeCells * binsPerCell + moved;
+    const double near = mainLobeCells * binsPerCell + movedInWindow(positions);
     const auto bins = [&](double cells) { return Index(std::lround(cells * binsPerCell)); };
     std::vector<double> levels(positions.size(), 1.0);
     AreaSearch search(strip, positions, binsPerCell * cellLikeness);
@@ -219,6 +239,54 @@ std::vector<double> areaLevels(const PathStrip &strip, const std::vector<double>
         search.raise(levels, bins(nearestCells), bins(besideCells), isBelow, isAbove);
     search.raise(levels, Index(std::ceil(near)), Index(std::floor(near + flankCells * binsPerCell)), true, true);
     return levels;
+}
+
+namespace {
+
+    constexpr Index longestRun = 32;            ///< as long as those of NoiseSample
+    constexpr double medianDeviations = 0.6745; ///< of the magnitude of a normal value
+    constexpr double shapeError = 2.33;         ///< times √N, relative: twice that of such a median
+    constexpr double pairsLikeness = 1.5;       ///< pairs that count as one, because each shares a mean with the next
+    constexpr double fewestPairs = 4.0;
+    constexpr Index fewestMeans = 6; ///< one after the other: onset and end of a signal beside are two of five changes
+
+    /// |ln(b/a)| of successive means over `length` frames, in the bins beside a path.
+    std::vector<float> changesBeside(const PathStrip &strip, const std::vector<double> &positions, Index length,
+                                     double binsPerCell)
+    {
+        const auto near = Index(std::lround(nearestCells * binsPerCell + movedInWindow(positions)));
+        const auto far = Index(std::lround(besideCells * binsPerCell + movedInWindow(positions)));
+        std::vector<float> changes;
+        for (Index bin = -far; bin <= far; ++bin) {
+            double before = std::numeric_limits<double>::quiet_NaN();
+            for (Index first = 0; std::abs(bin) >= near && first + length <= strip.frameCount(); first += length) {
+                double sum = 0.0;
+                for (Index at = first; at < first + length; ++at)
+                    sum += double(strip.valueAt(at, Index(std::lround(positions[std::size_t(at)])) + bin));
+                if (const auto change = float(std::abs(std::log(sum / before))); !std::isnan(change))
+                    changes.push_back(change);
+                before = sum;
+            }
+        }
+        return changes;
+    }
+
+} // namespace
+
+double runsBeside(const PathStrip &strip, const std::vector<double> &positions, Index n, double binsPerCell,
+                  double cellLikeness, double overlap)
+{
+    double runs = 1.0;
+    for (Index length = 2; length <= std::min({n, longestRun, strip.frameCount() / fewestMeans}); length *= 2) {
+        std::vector<float> changes = changesBeside(strip, positions, length, binsPerCell);
+        const double pairs = double(changes.size()) / (pairsLikeness * binsPerCell * cellLikeness);
+        if (pairs < fewestPairs)
+            break;
+        const double deviation = double(medianOf(changes)) / medianDeviations;
+        const double shape = 2.0 / (deviation * deviation) + 0.25;
+        runs = std::max(runs, double(length) / (overlap * shape) / (1.0 + 2.0 * shapeError / std::sqrt(pairs)));
+    }
+    return runs;
 }
 
 } // namespace faintline

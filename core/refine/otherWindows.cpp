@@ -640,19 +640,15 @@ namespace {
         /// Divides y by the raised level of the surroundings of x, measured without its own leakage.
         void divideBySurroundings(PathStrip &strip, const Track &x) const
         {
-            PathStrip beside = strip;
             std::vector<double> positions;
-            for (Index at = 0; at < strip.frameCount(); ++at) {
-                const SmoothedPoint &point = x.smoothed[std::size_t(at)];
+            std::vector<double> own;
+            for (const SmoothedPoint &point : x.smoothed) {
                 positions.push_back(point.position);
-                for (Index i = 0; i < strip.width(); ++i) {
-                    const double distance = std::abs(double(strip.firstCell(at) + i) - point.position);
-                    beside.row(at)[i] /= 1.0f + point.level * float(leakageAt(shape(), distance / m_model.binsPerCell));
-                }
+                own.push_back(double(point.level));
             }
+            const PathStrip beside = withoutLine(strip, positions, own, shape(), m_model.binsPerCell);
             const std::vector<double> levels =
-                areaLevels(beside, positions, m_model.binsPerCell,
-                           cellLikeness(sampleWindow(shape(), m_other->frames->geometry().windowSamples)));
+                areaLevels(beside, positions, m_model.binsPerCell, m_other->frames->geometry().likeness());
             for (Index at = 0; at < strip.frameCount(); ++at) {
                 for (float &y : std::span(strip.row(at), std::size_t(strip.width())))
                     y /= float(levels[std::size_t(at)]);

@@ -243,23 +243,12 @@ namespace {
         return mean > 1.0 ? count * (mean - 1.0 - std::log(mean)) : 0.0;
     }
 
-    /// Factor by which overlap increases the variance of means over many frames.
-    double overlapOf(const NormalisedFrames &frames)
-    {
-        const FrameGeometry geometry = frames.geometry();
-        if (!geometry.isOfSpectra())
-            return 1.0;
-        const double scatter =
-            overlapFactor(sampleWindow(geometry.window, geometry.windowSamples), int(geometry.framesPerWindow));
-        return scatter * scatter;
-    }
-
 } // namespace
 
 OwnNoiseLaw ownNoiseLaw(const AnalysisPlan &analysis, std::span<const Track> tracks, const RunContext &context)
 {
     const NormalisedFrames &frames = *analysis.frames;
-    return {frames, tracks, frames.geometry().binsPerCell, overlapOf(frames), context};
+    return {frames, tracks, frames.geometry().binsPerCell, frames.geometry().overlap(), context};
 }
 
 double evidenceLeft(const PathStrip &strip, const OwnNoiseLaw &law)

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace faintline {
@@ -113,18 +114,23 @@ namespace {
     {
     public:
         SecondLook(const Analysis &analysis, const RunContext &context)
-            : SecondLook(analysis, context, {{}, {}, explanationsOf(*analysis.frames)})
+            : SecondLook(analysis, context, {{}, {}, {}, explanationsOf(*analysis.frames)})
         {
         }
 
         SecondLook(const Analysis &analysis, const RunContext &context, SecondView view)
             : m_analysis(analysis), m_context(context), m_frames(*analysis.frames), m_cells(m_frames.grid().size()),
-              m_geometry(m_frames.geometry()), m_explanations(std::move(view.explanations)),
-              m_model(bothWaysModel(analysis)), m_tracks(std::move(view.tracks)), m_areas(std::move(view.areas))
+              m_geometry(m_frames.geometry()), m_likeness(m_geometry.likeness()), m_overlap(m_geometry.overlap()),
+              m_explanations(std::move(view.explanations)), m_model(bothWaysModel(analysis)),
+              m_tracks(std::move(view.tracks)), m_areas(std::move(view.areas)),
+              m_explainedByNoise(std::move(view.explainedByNoise))
         {
         }
 
-        SecondView result() { return {std::move(m_tracks), std::move(m_areas), std::move(m_explanations)}; }
+        SecondView result()
+        {
+            return {std::move(m_tracks), std::move(m_areas), std::move(m_explainedByNoise), std::move(m_explanations)};
+        }
 
         void lookBehindAll()
         {
@@ -347,9 +353,9 @@ namespace {
             }
         }
 
-        /// Divides the strip by the floor; returns whether a line remains that the detector would still have found.
-        /// Otherwise the areas through which it runs are stored.
-        bool isLineOverFloor(const Track &track, PathStrip &strip)
+        /// Divides the strip by the floor; returns what remains of the track's statistic above that and above the level
+        /// of its surroundings, or nothing if it is less than the threshold. Then areas through which it runs are stored.
+        std::optional<double> remainderOf(const Track &track, PathStrip &strip)
         {
             const PathStrip before = strip;
             double statistic = track.peakStatistic;
@@ -360,27 +366,44 @@ namespace {
                 if (isMore)
                     statistic = std::max(left, statistic);
                 if (statistic < m_analysis.threshold)
-                    return false;
+                    return {};
             }
             if (!m_analysis.settings.family.isNone())
-                return true; // the family's own members lie one cell beside it
+                return statistic; // the family's own members lie one cell beside it
             const std::vector<double> levels = levelBeside(strip, m_model.binsPerCell);
-            const double loss = lossOver(levels, strip);
-            if (loss <= 0.0 || statistic - loss >= m_analysis.threshold)
-                return true;
+            const double over = statistic - std::max(0.0, lossOver(levels, strip));
+            if (over >= m_analysis.threshold || over == statistic)
+                return over;
             addAreas(strip, levels);
-            return false;
+            return {};
+        }
+
+        /// Whether a piece's statistic is beyond what is as common in its surroundings.
+        bool exceedsSurroundings(double statistic, const PathStrip &strip, const BothWays &seen) const
+        {
+            if (!m_analysis.settings.family.isNone())
+                return true;
+            const PathStrip beside =
+                withoutLine(strip, seen.positions, seen.levels, m_geometry.window, m_model.binsPerCell);
+            const auto present = std::ranges::count_if(seen.endsBy, [](float share) { return share > 0.5f; });
+            return statistic / runsBeside(beside, seen.positions, present, m_model.binsPerCell, m_likeness, m_overlap)
+                   >= m_analysis.threshold;
         }
 
         void lookAt(TrackPiece &piece)
         {
             PathStrip &strip = piece.strip;
             setLnK(m_model, m_analysis, strip);
-            if (isLineOverFloor(*piece.track, strip)) {
+            if (const std::optional<double> remainder = remainderOf(*piece.track, strip)) {
                 m_model.ends = {.absentBefore = piece.isFirst(), .absentAfter = piece.isLast()};
                 const BothWays seen = lookAtObserved(withoutOthers(strip, *piece.track), m_model);
-                for (const Stretch &stretch : stretchesOf(piece, seen))
-                    propose(piece, seen, stretch);
+                if (exceedsSurroundings(*remainder, strip, seen)) {
+                    for (const Stretch &stretch : stretchesOf(piece, seen))
+                        propose(piece, seen, stretch);
+                } else {
+                    m_explainedByNoise.push_back(*piece.track);
+                    m_explainedByNoise.back().keepPoints(piece.from, piece.to);
+                }
             }
             strip = {};
             if (piece.isLast())
@@ -594,11 +617,14 @@ namespace {
         std::vector<std::vector<OtherPath>> m_paths; ///< of the tracks that are looked at, by frame
         Index m_cells;
         FrameGeometry m_geometry;
+        double m_likeness;
+        double m_overlap;
         Explanations m_explanations;
         BothWaysModel m_model;
         std::vector<StretchResult> m_candidates; ///< for the current track
         std::vector<Track> m_tracks;
         std::vector<Area> m_areas;
+        std::vector<Track> m_explainedByNoise;
     };
 
 } // namespace

@@ -26,9 +26,10 @@ std::vector<Track> cutToSignals(const Analysis &analysis, std::vector<Track> tra
 
 /// What a second pass makes of tracks.
 struct SecondView {
-    std::vector<Track> tracks; ///< lines, in the order in which they were explained
-    std::vector<Area> areas;   ///< not joined
-    Explanations explanations; ///< the floor that the lines raise
+    std::vector<Track> tracks;           ///< lines, in the order in which they were explained
+    std::vector<Area> areas;             ///< not joined
+    std::vector<Track> explainedByNoise; ///< pieces of tracks that are as common in their surroundings
+    Explanations explanations;           ///< the floor that the lines raise
 };
 
 /// Two-sided second pass over detected tracks: limits each signal to the time it was present and estimates its position
@@ -42,7 +43,8 @@ struct SecondView {
 ///   1. y is divided by the floor that stronger tracks raise (explanation.h);
 ///   2. a track that the detector would not have found over that floor belongs to them and is removed; so is one with
 ///      less than the threshold above the level of its surroundings (levelBeside.h): it was a path through a burst, a
-///      cloud or a hum, which becomes an area;
+///      cloud or a hum, which becomes an area; so is one whose statistic over that level, divided by what the variance
+///      of runs beside it exceeds that of noise (runsBeside), is less: it was a path through speckle;
 ///   3. in cells that are nearer to another track 3 cells or more beside it, with less than half of either's power midway,
 ///      nothing is to be seen; the stretches where the signal is present are kept, joined over up to 24 frames: the one
 ///      in which the path's statistic gained most, and every other whose own evidence reaches the threshold, which is

@@ -64,6 +64,9 @@ private slots:
     void aBurstOfTwoFramesIsAnArea();
     void linesAreNoArea();
     void aNarrowBandIsAnArea();
+    void noiseHasNoRuns();
+    void runsOfSpeckleAreMeasured();
+    void linesAndStepsAreNoRuns();
 };
 
 void tst_levelBeside::noiseIsNotRaised()
@@ -183,6 +186,55 @@ void tst_levelBeside::aNarrowBandIsAnArea()
     raise(strip, 0, 400, -8, 8, 4.0f);
     const double level = mean(areaLevels(strip, pathOf(strip), binsPerCell, hannLikeness), 0, 400);
     QVERIFY2(level > 3.5 && level < 4.8, qPrintable(QString::number(level)));
+}
+
+/// V(n) beside a path, for bins that are independent of each other.
+static double runsOf(const PathStrip &strip, Index n)
+{
+    return runsBeside(strip, pathOf(strip), n, binsPerCell, 1.0 / binsPerCell, 1.0);
+}
+
+/// The lower end of an interval of two standard errors: 2.3 % of the values of one length are above 1.
+void tst_levelBeside::noiseHasNoRuns()
+{
+    for (const Index frames : {20, 100, 1000}) {
+        int above = 0;
+        for (std::uint64_t seed = 1; seed <= 200; ++seed)
+            above += runsOf(noise(frames, seed), 2) > 1.0 ? 1 : 0;
+        QVERIFY2(above <= 14, qPrintable(QString("%1 of 200, %2 frames").arg(above).arg(frames)));
+    }
+}
+
+/// Power that stays for `stay` frames: means over n = stay, 2 stay … have a variance of stay/n.
+void tst_levelBeside::runsOfSpeckleAreMeasured()
+{
+    for (const Index stay : {4, 16}) {
+        PathStrip strip = noise(4000, std::uint64_t(stay));
+        for (Index at = 0; at < 4000; ++at)
+            std::copy_n(strip.row(at / stay * stay), strip.width(), strip.row(at));
+        for (const Index n : {stay, Index(32)}) {
+            const double pairs = 18.0 * 4000.0 / (1.5 * double(n));
+            const double interval = 1.0 + 2.0 * 2.33 / std::sqrt(pairs);
+            const double runs = runsOf(strip, n);
+            QVERIFY2(runs < 1.1 * double(stay) && runs > 0.9 * double(stay) / (interval * interval),
+                     qPrintable(QString("%1 for %2 of %3").arg(runs).arg(n).arg(stay)));
+        }
+    }
+}
+
+/// A line beside the path, a step of 6 dB, and a line that crosses it.
+void tst_levelBeside::linesAndStepsAreNoRuns()
+{
+    PathStrip line = noise(300, 8);
+    raise(line, 0, 300, 6, 9, 100.0f);
+    QVERIFY2(runsOf(line, 32) < 1.3, qPrintable(QString::number(runsOf(line, 32))));
+    PathStrip step = noise(300, 9);
+    raise(step, 150, 300, -step.halfWidth, step.halfWidth, 4.0f);
+    QVERIFY2(runsOf(step, 32) < 1.3, qPrintable(QString::number(runsOf(step, 32))));
+    PathStrip crossing = noise(300, 10);
+    for (Index bin = 1 - crossing.halfWidth; bin < crossing.halfWidth; ++bin)
+        raise(crossing, 150 + bin, 151 + bin, bin - 1, bin + 1, 100.0f);
+    QVERIFY2(runsOf(crossing, 32) < 2.0, qPrintable(QString::number(runsOf(crossing, 32))));
 }
 
 FAINTLINE_TEST(tst_levelBeside)
