@@ -1,10 +1,12 @@
 #include "noise/levels.h"
 
+#include "base/multiversion.h"
 #include "noise/constants.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace faintline {
 
@@ -54,6 +56,38 @@ namespace {
         return deviations;
     }
 
+    struct Sum {
+        double sum = 0.0;
+        double count = 0.0;
+    };
+
+    /// Of the values below a limit. In lanes, so that a value need not wait for the sum of those before it.
+    FAINTLINE_MULTIVERSION
+    Sum sumBelow(const float *values, std::size_t size, float limit)
+    {
+        constexpr std::size_t lanes = 16;
+        std::array<double, lanes> sums{};
+        std::array<std::int32_t, lanes> counts{};
+        const std::size_t whole = size / lanes * lanes;
+        for (std::size_t i = 0; i < whole; i += lanes)
+            for (std::size_t lane = 0; lane < lanes; ++lane) {
+                const float value = values[i + lane];
+                sums[lane] += double(value < limit ? value : 0.0f);
+                counts[lane] += value < limit ? 1 : 0;
+            }
+        Sum all;
+        for (std::size_t i = whole; i < size; ++i)
+            if (values[i] < limit) {
+                all.sum += double(values[i]);
+                all.count += 1.0;
+            }
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            all.sum += sums[lane];
+            all.count += double(counts[lane]);
+        }
+        return all;
+    }
+
     /// Cumulative sums of squares.
     std::vector<double> energyUpTo(const std::vector<double> &x)
     {
@@ -95,13 +129,7 @@ float truncatedMean(std::span<const float> cells, float guess)
     const float kept =
         (1.0f - (1.0f + lineLimit) * std::exp(-lineLimit)) / (1.0f - std::exp(-lineLimit)); // E[y | y < cut]
     for (int pass = 0; pass < 2; ++pass) {
-        double sum = 0.0;
-        double count = 0.0;
-        for (float value : cells)
-            if (value < lineLimit * guess) {
-                sum += double(value);
-                count += 1.0;
-            }
+        const auto [sum, count] = sumBelow(cells.data(), cells.size(), lineLimit * guess);
         if (sum > 0.0)
             guess = float(sum / count) / kept;
     }
