@@ -12,6 +12,7 @@ namespace faintline {
 namespace {
 
     constexpr std::size_t readBlockBytes = std::size_t(1) << 20;
+    constexpr std::size_t stripBytes = std::size_t(16) << 20; ///< of strips read in one pass
 
     void copyFrame(std::span<const float> y, Index at, PathStrip &strip)
     {
@@ -72,6 +73,26 @@ void readStrips(const Analysis &analysis, std::span<PathStrip> strips, const Run
     for (PathStrip &strip : strips)
         all.push_back(&strip);
     readStrips(analysis, std::move(all), context, what);
+}
+
+void readInTurn(const Analysis &analysis, const std::vector<PathStrip *> &strips, const RunContext &context,
+                std::string_view what, const std::function<void(std::size_t)> &take)
+{
+    const auto done = [&](std::size_t strip) { return double(strip) / double(strips.size()); };
+    for (std::size_t first = 0; first < strips.size();) {
+        std::vector<PathStrip *> together;
+        for (std::size_t bytes = 0; first + together.size() < strips.size() && bytes < stripBytes;) {
+            together.push_back(strips[first + together.size()]);
+            bytes += sizeof(float) * std::size_t(together.back()->frameCount() * together.back()->width());
+        }
+        const std::size_t end = first + together.size();
+        readStrips(analysis, std::move(together), context.part(done(first), 0.5 * (done(first) + done(end))), what);
+        for (; first < end; ++first) {
+            context.checkpoint(done(end), what);
+            take(first);
+            *strips[first] = {};
+        }
+    }
 }
 
 PathStrip stripAlong(const Track &track, Index halfWidth)

@@ -4,8 +4,10 @@
 #include "recursion/PathStrip.h"
 #include "refine/bothWays.h"
 
+#include <functional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace faintline {
 
@@ -15,6 +17,10 @@ void readStrips(const Analysis &analysis, std::vector<PathStrip *> strips, const
                 std::string_view what);
 void readStrips(const Analysis &analysis, std::span<PathStrip> strips, const RunContext &context,
                 std::string_view what);
+
+/// Reads as many strips at a time as 16 MiB hold, and calls take(number) for each in order, which is empty afterwards.
+void readInTurn(const Analysis &analysis, const std::vector<PathStrip *> &strips, const RunContext &context,
+                std::string_view what, const std::function<void(std::size_t)> &take);
 
 /// An empty strip along the cells of a track's path.
 PathStrip stripAlong(const Track &track, Index halfWidth);

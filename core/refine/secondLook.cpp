@@ -28,7 +28,6 @@ namespace {
     constexpr double hiddenCells = 1.0;          ///< beside a signal
     constexpr double apartCells = 3.0;           ///< from where on two tracks do not meet (decideJointly.h)
     constexpr double ghostStatisticShare = 0.08; ///< of a path's statistic, above the floor
-    constexpr std::size_t stripBytes = std::size_t(16) << 20; ///< read at a time
 
     struct Stretch {
         Index from;      ///< frames of the piece's strip
@@ -110,6 +109,14 @@ namespace {
         return {frames.grid().size(), around(leakageBound, 0.0), around(leakageAt, 0.02)};
     }
 
+    std::vector<PathStrip *> stripsOf(std::vector<TrackPiece> &pieces)
+    {
+        std::vector<PathStrip *> strips;
+        for (TrackPiece &piece : pieces)
+            strips.push_back(&piece.strip);
+        return strips;
+    }
+
     class SecondLook
     {
     public:
@@ -150,26 +157,9 @@ namespace {
             for (const Track &track : found)
                 addPieces(pieces, track, m_frames.time().count, m_model.binsPerCell);
             m_paths = pathsByFrame(found);
-            for (std::size_t first = 0; first < pieces.size();) {
-                std::size_t bytes = 0;
-                std::size_t end = first;
-                while (end < pieces.size() && (end == first || bytes < stripBytes)) {
-                    const PathStrip &strip = pieces[end++].strip;
-                    bytes += sizeof(float) * std::size_t(strip.frameCount() * strip.width());
-                }
-                const std::span<TrackPiece> some = std::span(pieces).subspan(first, end - first);
-                const auto done = [&](std::size_t piece) { return double(piece) / double(pieces.size()); };
-                std::vector<PathStrip *> strips;
-                for (TrackPiece &piece : some)
-                    strips.push_back(&piece.strip);
-                readStrips(m_analysis, std::move(strips), context.part(done(first), 0.5 * (done(first) + done(end))),
-                           following);
-                for (TrackPiece &piece : some) {
-                    context.checkpoint(done(end), following);
-                    piece.track->isSubtracted ? lookAtRest(piece) : lookAt(piece);
-                }
-                first = end;
-            }
+            readInTurn(m_analysis, stripsOf(pieces), context, following, [&](std::size_t i) {
+                pieces[i].track->isSubtracted ? lookAtRest(pieces[i]) : lookAt(pieces[i]);
+            });
         }
 
     private:
@@ -183,26 +173,6 @@ namespace {
                 const std::size_t known = m_tracks.size();
                 lookAtAll(searchBehind(m_analysis, m_explanations, context.part(0.0, 0.7)), {}, context.part(0.7, 1.0));
                 isMore = m_tracks.size() > known;
-            }
-        }
-
-        /// Reads strips that fit into memory together, and calls take(number) for each.
-        template <class Take>
-        void forEachStrip(std::vector<PathStrip> &strips, const RunContext &context, Take take) const
-        {
-            for (std::size_t first = 0; first < strips.size();) {
-                std::vector<PathStrip *> some;
-                std::size_t bytes = 0;
-                std::size_t end = first;
-                for (; end < strips.size() && (end == first || bytes < stripBytes); ++end) {
-                    bytes += sizeof(float) * std::size_t(strips[end].frameCount() * strips[end].width());
-                    some.push_back(&strips[end]);
-                }
-                readStrips(m_analysis, std::move(some), context, following);
-                for (; first < end; ++first) {
-                    take(first);
-                    strips[first] = {};
-                }
             }
         }
 
@@ -229,8 +199,11 @@ namespace {
                     strip.centres.push_back(Index(std::lround(position)));
             }
             std::vector<Bridge> bridges(ways.size());
-            forEachStrip(strips, m_context.part(1.0, 1.0),
-                         [&](std::size_t i) { bridges[i] = bridgeAlong(ways[i], strips[i]); });
+            std::vector<PathStrip *> inTurn;
+            for (PathStrip &strip : strips)
+                inTurn.push_back(&strip);
+            readInTurn(m_analysis, inTurn, m_context.part(1.0, 1.0), following,
+                       [&](std::size_t i) { bridges[i] = bridgeAlong(ways[i], strips[i]); });
             return bridges;
         }
 
@@ -405,7 +378,6 @@ namespace {
                     m_explainedByNoise.back().keepPoints(piece.from, piece.to);
                 }
             }
-            strip = {};
             if (piece.isLast())
                 accept();
         }
@@ -491,7 +463,6 @@ namespace {
         {
             for (ExplainedSignal &signal : explainSubtracted(piece.strip, m_model.binsPerCell))
                 m_explanations.add(std::move(signal));
-            piece.strip = {};
         }
 
         void propose(const TrackPiece &piece, const BothWays &seen, const Stretch &stretch)
@@ -643,33 +614,25 @@ bool looksTwice(const AnalysisPlan &analysis)
 
 namespace {
 
-    /// The frames of a track from the first to the last one in which its signal is present; both -1 if there are none.
+    /// The frames from the first to the last one in which a signal is present; both -1 if there are none.
     struct PresentFrames {
         Index first = -1;
         Index last = -1;
     };
 
-    PresentFrames presentFrames(const Analysis &analysis, const Track &track, const RunContext &context)
+    /// Extends them by those of a piece, whose strip has been read.
+    void addPresent(PresentFrames &frames, const TrackPiece &piece, BothWaysModel &model, const Analysis &analysis)
     {
-        std::vector<TrackPiece> trackPieces;
-        BothWaysModel model = bothWaysModel(analysis);
-        addPieces(trackPieces, track, analysis.time().count, model.binsPerCell);
-        PresentFrames frames;
-        for (TrackPiece &piece : trackPieces) {
-            readStrips(analysis, std::span(&piece.strip, 1), context, following);
-            setLnK(model, analysis, piece.strip);
-            model.ends = {.absentBefore = piece.isFirst(), .absentAfter = piece.isLast()};
-            const std::vector<float> present = lookAtObserved(piece.strip, model).endsBy;
-            for (std::size_t i = piece.from; i < piece.to; ++i) {
-                const Index frame = track.points[i].frame;
-                if (present[std::size_t(frame - piece.strip.firstFrame)] <= 0.5f)
-                    continue;
-                frames.first = frames.first < 0 ? frame : frames.first;
-                frames.last = frame;
-            }
-            piece.strip = {};
+        setLnK(model, analysis, piece.strip);
+        model.ends = {.absentBefore = piece.isFirst(), .absentAfter = piece.isLast()};
+        const std::vector<float> present = lookAtObserved(piece.strip, model).endsBy;
+        for (std::size_t i = piece.from; i < piece.to; ++i) {
+            const Index frame = piece.track->points[i].frame;
+            if (present[std::size_t(frame - piece.strip.firstFrame)] <= 0.5f)
+                continue;
+            frames.first = frames.first < 0 ? frame : frames.first;
+            frames.last = frame;
         }
-        return frames;
     }
 
 } // namespace
@@ -683,13 +646,21 @@ bool cutsOnly(const AnalysisPlan &analysis)
 
 std::vector<Track> cutToSignals(const Analysis &analysis, std::vector<Track> tracks, const RunContext &context)
 {
-    for (Track &track : tracks) {
-        const PresentFrames frames = presentFrames(analysis, track, context);
-        if (frames.first < 0)
+    BothWaysModel model = bothWaysModel(analysis);
+    std::vector<TrackPiece> pieces;
+    for (const Track &track : tracks)
+        addPieces(pieces, track, analysis.time().count, model.binsPerCell);
+    std::vector<PresentFrames> present(tracks.size());
+    readInTurn(analysis, stripsOf(pieces), context, following, [&](std::size_t i) {
+        addPresent(present[std::size_t(pieces[i].track - tracks.data())], pieces[i], model, analysis);
+    });
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+        Track &track = tracks[i];
+        if (present[i].first < 0)
             continue;
         const Index first = track.points.front().frame;
-        track.keepPoints(std::size_t(frames.first - first), std::size_t(frames.last + 1 - first));
-        track.keepDecisionsIn(frames.first, frames.last);
+        track.keepPoints(std::size_t(present[i].first - first), std::size_t(present[i].last + 1 - first));
+        track.keepDecisionsIn(present[i].first, present[i].last);
     }
     return tracks;
 }
