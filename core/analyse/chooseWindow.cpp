@@ -88,11 +88,12 @@ namespace {
             return longer(std::move(automatic));
         }
 
-        /// Results for the other windows, those next to T0 and to the chosen one at least, without pictures.
+        /// Results for the other windows, those next to T0 and to the chosen one at least, without pictures; and for half
+        /// the chosen one: a signal that moves by two cells there would lose 3 dB of visibility in it and in a quarter.
         std::vector<std::shared_ptr<const Analysis>> others(const Analysis &chosen)
         {
             const double own = windowSecondsOf(chosen) / m_windowSeconds;
-            for (const double step : {1.0 / factor, factor, own / factor, own * factor})
+            for (const double step : {1.0 / factor, factor, own / factor, own * factor, 0.5 * own})
                 if (!isTried(step) && isFeasible(step))
                     tried(step, step < 1.0 ? laws::glide() : m_asked.model);
             std::vector<std::shared_ptr<const Analysis>> result = m_analyses;
@@ -142,7 +143,7 @@ namespace {
         bool isTried(double step) const
         {
             return std::ranges::any_of(m_trials, [&](const WindowTrial &trial) {
-                return std::abs(std::log(trial.windowSeconds / (step * m_windowSeconds))) < 0.5 * std::log(factor);
+                return std::abs(std::log2(trial.windowSeconds / (step * m_windowSeconds))) < 0.5;
             });
         }
 

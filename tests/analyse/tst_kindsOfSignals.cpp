@@ -194,6 +194,21 @@ private slots:
         expect(mixture, 150.0, 9, 1.2, 0.95);
     }
 
+    /// Too fast for the window of the recording, and some too faint for a quarter of it.
+    void crossingChirps()
+    {
+        Mixture mixture(8000.0, 60.0, 7);
+        for (int i = 0; i < 30; ++i) {
+            const double from = mixture.uniform(0.0, 48.0);
+            const double seconds = mixture.uniform(5.0, 12.0);
+            const double slope = mixture.uniform(-90.0, 90.0);
+            const double first = mixture.uniform(1100.0, 2900.0);
+            mixture.add({from, from + seconds, [=](double t) { return first + slope * (t - from); },
+                         mixture.uniform(4.0, 12.0), 0.1});
+        }
+        expect(mixture, 30.0, 26, 2.5, 0.95);
+    }
+
     void tonalsUnderModulatedNoise()
     {
         Mixture mixture(2000.0, 120.0, 4);
