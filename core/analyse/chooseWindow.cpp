@@ -88,14 +88,16 @@ namespace {
             return longer(std::move(automatic));
         }
 
-        /// Results for the other windows, those next to T0 and to the chosen one at least, without pictures; and for half
-        /// the chosen one: a signal that moves by two cells there would lose 3 dB of visibility in it and in a quarter.
+        /// Results for the other windows, without pictures: those next to T0 and to the chosen one at least, and where
+        /// there are signals half the chosen one. One that moves by two cells there would lose 3 dB of visibility in it
+        /// and in a quarter.
         std::vector<std::shared_ptr<const Analysis>> others(const Analysis &chosen)
         {
             const double own = windowSecondsOf(chosen) / m_windowSeconds;
-            for (const double step : {1.0 / factor, factor, own / factor, own * factor, 0.5 * own})
-                if (!isTried(step) && isFeasible(step))
-                    tried(step, step < 1.0 ? laws::glide() : m_asked.model);
+            for (const double step : {1.0 / factor, factor, own / factor, own * factor})
+                ask(step);
+            if (std::ranges::any_of(m_analyses, [](const auto &analysis) { return isSure(*analysis); }))
+                ask(0.5 * own);
             std::vector<std::shared_ptr<const Analysis>> result = m_analyses;
             result.erase(result.begin() + Index(numberOf(windowSecondsOf(chosen))));
             return result;
@@ -138,6 +140,12 @@ namespace {
                 best = std::move(trial);
             }
             return nullptr;
+        }
+
+        void ask(double step)
+        {
+            if (!isTried(step) && isFeasible(step))
+                tried(step, step < 1.0 ? laws::glide() : m_asked.model);
         }
 
         bool isTried(double step) const

@@ -45,8 +45,9 @@ AnalysisSettings inWindowOf(const WindowTrial &trial, AnalysisSettings settings)
 /// The statistic is that of a second run with the chosen window.
 ///
 /// The result's tracks are those of the chosen window and what the others know better (otherWindows.h): those that were
-/// tried, T0 times ¼ and 4, the chosen one times ¼, ½ and 4, and shorter ones as long as the next would see better what the
-/// last one knew better, if that comes to an end, and each has more evidence of most tracks of the last one.
+/// tried, T0 times ¼ and 4, the chosen one times ¼ and 4, and ½ if any has a sure track, and shorter ones as long as the
+/// next would see better what the last one knew better, if that comes to an end, and each has more evidence of most
+/// tracks of the last one.
 std::shared_ptr<const Analysis> runInChosenWindow(const RecordingPointer &recording, const AnalysisSettings &settings,
                                                   const AnalysisRequest &request, const RunContext &context);
 
