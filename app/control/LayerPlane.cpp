@@ -21,12 +21,12 @@ LayerPlane::LayerPlane(const FrameKind &kind, WaterfallView &view, QObject *pare
     m_item.makeKey().release()->attach(&view);
     view.installEventFilter(parent);
     view.canvas()->installEventFilter(parent);
-    connect(&view, &WaterfallView::orientationChanged, this, &LayerPlane::shapeChanged);
+    connect(&view.direction(), &TimeDirection::changed, this, &LayerPlane::shapeChanged);
 }
 
 bool LayerPlane::areRowsVertical() const
 {
-    return m_view.orientation() != WaterfallView::Orientation::LeftToRight;
+    return m_view.isTimeVertical();
 }
 
 LineLayerPlane::LineLayerPlane(WaterfallView &view, Viewport &viewport, QObject *watcher)

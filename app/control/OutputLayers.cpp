@@ -33,6 +33,7 @@ OutputLayers::OutputLayers(Document &document, WaterfallView &output, QObject *p
         if (m_isOverlay) // which ends where the statistic passes it
             show();
     });
+    connect(&document.display(), &PictureDisplay::coloursChanged, this, &OutputLayers::show);
     add(new LineLayerPlane(output, document.viewport(), this));
     connect(&m_runner, &JobRunner::failed, this, &OutputLayers::failed);
 }
@@ -47,7 +48,6 @@ void OutputLayers::add(LayerPlane *plane)
     m_planes.push_back(plane);
     connect(plane, &LayerPlane::spanChanged, this, &OutputLayers::followSpan);
     connect(plane, &LayerPlane::shapeChanged, this, &OutputLayers::follow);
-    connect(&plane->view(), &WaterfallView::colourMapChanged, this, &OutputLayers::show);
     connect(plane, &LayerPlane::cursorChanged, this, [this, plane] { followCursor(*plane); });
 }
 
@@ -275,9 +275,9 @@ void OutputLayers::show()
     const auto &analysis = m_document.analysis();
     LayerPlane &plane = this->plane();
     LayerItem &item = plane.item();
-    item.setTimeVertical(plane.view().orientation() != WaterfallView::Orientation::LeftToRight);
+    item.setTimeVertical(plane.view().isTimeVertical());
     const Theme::Colours &colours = Theme::colours(plane.view());
-    item.setColours(colours.text, colours.canvas, plane.view().colourMap());
+    item.setColours(colours.text, colours.canvas, m_document.display().colourMap());
     if (!isKnown() || m_result.frame != singleFrame(cursor()) || m_result.shown != plane.shown()) {
         item.setPicture(nullptr, {}, {});
         plane.view().setTracksPictured(false);

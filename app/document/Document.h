@@ -6,7 +6,9 @@
 #include "base/files/InputFiles.h"
 #include "exchange/Session.h"
 #include "live/LiveHistory.h"
+#include "widgets/base/TimeDirection.h"
 #include "widgets/base/Viewport.h"
+#include "widgets/waterfall/PictureDisplay.h"
 
 #include <QObject>
 #include <QUndoStack>
@@ -87,6 +89,8 @@ public:
     // ---- view and results ----------------------------------------------------------------------------------------
 
     Viewport &viewport() { return m_viewport; }
+    PictureDisplay &display() { return m_display; }    ///< of all pictures
+    TimeDirection &direction() { return m_direction; } ///< of pictures of lines
     /// The time of interest: the visible span, or the cursor's if frames are shown singly.
     Span lookedAt() const;
     /// The measured box, if boxes of time × frequency apply to the open source.
@@ -170,6 +174,8 @@ private:
     SignalNumbers m_numbers;
     QString m_sessionPath;
     Viewport m_viewport;
+    PictureDisplay m_display;
+    TimeDirection m_direction;
     std::shared_ptr<const Analysis> m_analysis;
     std::shared_ptr<const PeakPyramid> m_provisional;
     LiveView m_live;

@@ -34,7 +34,8 @@ namespace {
 ChannelsPanel::ChannelsPanel(Document &document, AnalysisController &controller, QWidget *parent)
     : QWidget(parent), m_document(document), m_controller(controller), m_sentence(panelSentence()), m_page(new QLabel),
       m_previous(pageButton(Qt::LeftArrow, tr("Previous channels"))),
-      m_next(pageButton(Qt::RightArrow, tr("Next channels"))), m_pictures(new LinkedPictures(document.viewport())),
+      m_next(pageButton(Qt::RightArrow, tr("Next channels"))),
+      m_pictures(new LinkedPictures(document.viewport(), document.display(), document.direction())),
       m_channels(this, &ChannelsPanel::question, picturesOf, &ChannelsPanel::show)
 {
     m_sentence->setAlignment(Qt::AlignCenter);

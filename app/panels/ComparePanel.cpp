@@ -51,9 +51,9 @@ namespace {
 
 ComparePanel::ComparePanel(Document &document, AnalysisController &controller, Comparer &comparer, QWidget *parent)
     : QWidget(parent), m_document(document), m_controller(controller), m_comparer(comparer),
-      m_picture(new WaterfallView(tr("B − A (nat)"))), m_picturePane(buildPicture()), m_sentence(panelSentence()),
-      m_differences(plainLabel()), m_keep(new QPushButton(tr("Keep as A"))), m_swap(new QPushButton(tr("Swap"))),
-      m_goTo(new QPushButton(tr("Go to A"))),
+      m_picture(new WaterfallView(tr("B − A (nat)"), nullptr, &document.direction())), m_picturePane(buildPicture()),
+      m_sentence(panelSentence()), m_differences(plainLabel()), m_keep(new QPushButton(tr("Keep as A"))),
+      m_swap(new QPushButton(tr("Swap"))), m_goTo(new QPushButton(tr("Go to A"))),
       m_compute(new QPushButton(tr("Compute A here"))), m_filters{new QToolButton, new QToolButton, new QToolButton},
       m_table(new ColumnTable(tr("Events of A and B")))
 {
@@ -85,8 +85,8 @@ QWidget *ComparePanel::buildPicture()
 {
     m_picture->setObjectName(QStringLiteral("difference"));
     m_picture->setViewport(&m_document.viewport());
-    m_picture->setColourMap(Theme::kind(palette()) == Theme::Kind::Light ? QStringLiteral("blue-red")
-                                                                         : QStringLiteral("ice-fire"));
+    m_picture->display().setColourMap(Theme::kind(palette()) == Theme::Kind::Light ? QStringLiteral("blue-red")
+                                                                                   : QStringLiteral("ice-fire"));
     m_picture->setMinimumSize(150, 90);
     return ColourBar::pane(m_picture);
 }
@@ -173,8 +173,8 @@ void ComparePanel::changeEvent(QEvent *event)
 {
     QWidget::changeEvent(event);
     if (event->type() == QEvent::PaletteChange)
-        m_picture->setColourMap(Theme::kind(palette()) == Theme::Kind::Light ? QStringLiteral("blue-red")
-                                                                             : QStringLiteral("ice-fire"));
+        m_picture->display().setColourMap(Theme::kind(palette()) == Theme::Kind::Light ? QStringLiteral("blue-red")
+                                                                                       : QStringLiteral("ice-fire"));
 }
 
 void ComparePanel::keep()

@@ -236,8 +236,8 @@ void HandLinePanel::setCovered(bool isCovered)
         delete cover;
         cover = nullptr;
     }
-    for (const auto layer : {WaterfallView::EventLayer, WaterfallView::TrackLayer, WaterfallView::TruthLayer})
-        m_pictures.input.setLayer(layer, !isCovered);
+    for (const auto layer : {PictureDisplay::EventLayer, PictureDisplay::TrackLayer, PictureDisplay::TruthLayer})
+        m_document.display().setLayer(layer, !isCovered);
     if (isCovered) {
         m_covers[0] = new Cover(m_pictures.statistic, tr("Where is the line? Draw it through the input, then reveal."));
         m_covers[1] = new Cover(m_pictures.statisticAlongTime, {});

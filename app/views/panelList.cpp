@@ -33,7 +33,6 @@
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"
 #include "widgets/plot/StripPlot.h"
-#include "widgets/waterfall/LinkedPictures.h"
 
 #include <QPushButton>
 #include <QScrollArea>
@@ -96,24 +95,10 @@ namespace {
         return new HandLinePanel(parts.document(), {*bench.input(), *bench.outputView(), *bench.statisticPlot()});
     }
 
-    QWidget *makeChannels(WindowParts &parts)
-    {
-        auto *panel = new ChannelsPanel(parts.document(), parts.controller());
-        WaterfallView *output = parts.workbench().output();
-        LinkedPictures *pictures = &panel->pictures();
-        QObject::connect(output, &WaterfallView::orientationChanged, pictures, &LinkedPictures::setOrientation);
-        QObject::connect(pictures, &LinkedPictures::orientationChanged, output, &WaterfallView::setOrientation);
-        QObject::connect(output, &WaterfallView::colourMapChanged, pictures, &LinkedPictures::setColourMap);
-        QObject::connect(pictures, &LinkedPictures::colourMapChanged, output, &WaterfallView::setColourMap);
-        return panel;
-    }
-
     QWidget *makeCompare(WindowParts &parts)
     {
         auto *panel = new ComparePanel(parts.document(), parts.controller(), parts.comparer());
         QObject::connect(panel, &ComparePanel::eventActivated, panel, [&parts](int id) { parts.goTo(id); });
-        QObject::connect(parts.workbench().output(), &WaterfallView::orientationChanged, panel->picture(),
-                         &WaterfallView::setOrientation);
         return panel;
     }
 
@@ -208,7 +193,8 @@ std::vector<PanelRow> &panelList()
         {"evaluateDock", tr("Pd and ROC"), Place::Bottom,
          [](Parts parts) { return new EvaluatePanel(parts.document(), parts.experiments()); }, "pd"},
         {"spectrumDock", tr("Spectrum"), Place::Bottom, make<SpectrumPanel>, "spectrum"},
-        {"channelsDock", tr("Channels"), Place::Bottom, makeChannels, "channels"},
+        {"channelsDock", tr("Channels"), Place::Bottom,
+         [](Parts parts) { return new ChannelsPanel(parts.document(), parts.controller()); }, "channels"},
         {"dopplerDock", tr("Doppler fit"), Place::Bottom,
          [](Parts parts) {
              return new DopplerPanel(parts.document(), parts.eventTable(), parts.reviews().files().provenance());

@@ -206,7 +206,7 @@ void MainWindow::buildBottom()
         m_bottomBars.push_back(bar);
     };
     auto *overview = new OverviewStrip;
-    connectOverview(*overview, m_document, *m_workbench);
+    connectOverview(*overview, m_document);
     m_readOut = new ReadOut;
     connectReadOut(*m_readOut, m_document, *m_workbench);
     addBar(QStringLiteral("readOutBar"), tr("Read-out"), m_readOut); // the first one is the lowest

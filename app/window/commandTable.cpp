@@ -184,6 +184,7 @@ void CommandTable::addView()
     WaterfallView *input = w.m_workbench->input();
     WaterfallView *output = w.m_workbench->output();
     Viewport *viewport = &w.m_document.viewport();
+    PictureDisplay *display = &w.m_document.display();
     add(tr("&View"),
         {{tr("Show &all"), Qt::Key_0, [viewport] { viewport->showAll(); }, tr("The whole recording"), Shown,
           "show-all"},
@@ -191,7 +192,7 @@ void CommandTable::addView()
          {tr("To the &newest frames"), Qt::Key_End, [this] { w.m_document.followNewest(); },
           tr("While listening, go to the newest frames")},
          {},
-         {tr("Next &orientation"), Qt::Key_O, [this] { w.bench().cycleOrientation(); },
+         {tr("Next &orientation"), Qt::Key_O, [this] { w.bench().firstView()->direction().cycle(); },
           tr("Newest on top, oldest on top, left to right"), Shown, "orientation", tr("Orientation")},
          onOff({tr("&Logarithmic frequency"), Qt::SHIFT | Qt::Key_L,
                 [viewport] { viewport->setLogarithmic(!viewport->isLogarithmic()); },
@@ -201,12 +202,12 @@ void CommandTable::addView()
                 [this] { w.m_workbench->setRadioAxis(!w.m_workbench->isRadioAxis()); },
                 tr("Label the frequency axis with the recording's centre frequency added, where it is known")},
                [this] { return w.m_workbench->isRadioAxis(); }),
-         {tr("Next &colour map"), Qt::Key_C, [this] { w.bench().cycleColourMap(); }, noTip, Shown, "colours",
+         {tr("Next &colour map"), Qt::Key_C, [display] { display->cycleColourMap(); }, noTip, Shown, "colours",
           tr("Colours")},
          {tr("A&utomatic range"), Qt::Key_A, [this] { w.bench().setAutomaticRange(); }},
          {.when = Shown, .actions = {w.m_workbench->plainInput().action()}},
          {},
-         {tr("&Measure a box"), Qt::Key_M, [output] { output->setMeasuring(!output->isMeasuring()); }},
+         {tr("&Measure a box"), Qt::Key_M, [display] { display->setMeasuring(!display->isMeasuring()); }},
          {tr("&Harmonics"), Qt::Key_H, noRun, noTip, Shown, "harmonics"},
          {tr("S&idebands"), Qt::Key_I, noRun, noTip, Shown, "sidebands"},
          {tr("Cursor to the pea&k nearby"), Qt::Key_K,
@@ -447,16 +448,13 @@ QAction *CommandTable::toggle(const char *name, Set set)
 
 void CommandTable::connectMarks()
 {
-    WaterfallView *input = w.m_workbench->input(), *output = w.m_workbench->output();
-    QAction *harmonics = toggle("harmonics", [input, output](bool isOn) {
-        input->setHarmonics(isOn);
-        output->setHarmonics(isOn);
+    PictureDisplay *display = &w.m_document.display();
+    QAction *harmonics = toggle("harmonics", [display](bool isOn) { display->setHarmonics(isOn); });
+    QAction *sidebands = toggle("sidebands", [this](bool isOn) { w.m_workbench->output()->setSidebands(isOn); });
+    connect(display, &PictureDisplay::linesChanged, this, [display, harmonics, sidebands] {
+        harmonics->setChecked(display->hasHarmonics());
+        sidebands->setChecked(display->sidebandSpacing() > 0.0);
     });
-    connect(input, &WaterfallView::harmonicsChanged, harmonics, &QAction::setChecked);
-    connect(output, &WaterfallView::harmonicsChanged, harmonics, &QAction::setChecked);
-    QAction *sidebands = toggle("sidebands", [output](bool isOn) { output->setSidebands(isOn); });
-    connect(output, &WaterfallView::sidebandsChanged, sidebands,
-            [sidebands](double hz) { sidebands->setChecked(hz > 0.0); });
     w.m_events->card().setActions({action("why"), action("hear"), harmonics, action("straighten"), action("doppler")});
 }
 

@@ -12,17 +12,6 @@
 
 namespace faintline {
 
-namespace {
-
-    void copyLayers(const WaterfallView &from, WaterfallView &to)
-    {
-        for (const auto layer : {WaterfallView::EventLayer, WaterfallView::TrackLayer, WaterfallView::TruthLayer,
-                                 WaterfallView::ThresholdLayer, WaterfallView::GridLayer, WaterfallView::CursorLayer})
-            to.setLayer(layer, from.layers().testFlag(layer));
-    }
-
-} // namespace
-
 Bench::Bench(Document &document, const FrameKind &kind, std::chrono::milliseconds stepInterval, QWidget *parent)
     : QWidget(parent), m_document(document), m_kind(kind), m_historyPanes(newSplitter(Qt::Horizontal)),
       m_rows(newSplitter(Qt::Vertical)), m_stack(new TimeStack(this)), m_player(stepInterval)
@@ -62,7 +51,6 @@ void Bench::addHistory(WaterfallView &view, QWidget &pane, std::size_t axis)
     view.setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding); // Qwt's default never shrinks below the hint
     m_historyPanes->addWidget(&pane);
     m_stack->add(view, pane);
-    connect(&view, &WaterfallView::orientationChanged, this, [this, &view] { arrange(view); });
 }
 
 void Bench::setHistoryAxis(const WaterfallView &view, std::size_t axis)
@@ -74,23 +62,9 @@ void Bench::setHistoryAxis(const WaterfallView &view, std::size_t axis)
 
 void Bench::add(const Picture &picture)
 {
-    for (const Picture &other : m_pictures) {
-        keepLike(picture, other);
-        keepLike(other, picture);
-    }
     m_pictures.push_back(picture);
     connect(picture.view, &WaterfallView::eventActivated, this, &Bench::eventActivated);
     connect(picture.view, &WaterfallView::thresholdStepRequested, this, &Bench::thresholdStepRequested);
-}
-
-/// Changes of one picture's display are those of all; the orientation, of planes or of histories.
-void Bench::keepLike(const Picture &from, const Picture &to)
-{
-    connect(from.view, &WaterfallView::colourMapChanged, to.view, &WaterfallView::setColourMap);
-    connect(from.view, &WaterfallView::layersChanged, to.view,
-            [from = from.view, to = to.view] { copyLayers(*from, *to); });
-    if (from.axis.has_value() == to.axis.has_value())
-        connect(from.view, &WaterfallView::orientationChanged, to.view, &WaterfallView::setOrientation);
 }
 
 void Bench::addRows(const std::vector<std::pair<QWidget *, int>> &rows)
@@ -111,9 +85,14 @@ QSplitter *Bench::newSplitter(Qt::Orientation orientation)
     return splitter;
 }
 
-void Bench::arrange(const WaterfallView &history)
+void Bench::arrangeBy(const TimeDirection &direction)
 {
-    const bool isStacked = !history.isTimeVertical();
+    connect(&direction, &TimeDirection::changed, this, [this, &direction] { arrange(!direction.isVertical()); });
+    arrange(!direction.isVertical());
+}
+
+void Bench::arrange(bool isStacked)
+{
     m_historyPanes->setOrientation(isStacked ? Qt::Vertical : Qt::Horizontal);
     m_stack->setOn(isStacked);
     showWhatFits();

@@ -64,8 +64,6 @@ public:
     virtual ViewState viewState() const = 0;
     virtual void restore(const ViewState &view) = 0;
 
-    void cycleOrientation() { firstView()->cycleOrientation(); }
-    void cycleColourMap() { firstView()->cycleColourMap(); }
     void setAutomaticRange();
 
     /// Sizes of the panes.
@@ -100,8 +98,8 @@ protected:
     QSplitter *rows() const { return m_rows; }
     virtual std::vector<QSplitter *> splitters() const = 0;
 
-    /// Places the histories for the direction of time, which all have in common.
-    void arrange(const WaterfallView &history);
+    /// Places the histories for their direction of time, now and when it changes.
+    void arrangeBy(const TimeDirection &direction);
     /// Hides parts that would leave too little room for the pictures, which have priority.
     virtual void showWhatFits() = 0;
     void resizeEvent(QResizeEvent *event) override;
@@ -151,7 +149,7 @@ private:
     };
 
     void add(const Picture &picture);
-    void keepLike(const Picture &from, const Picture &to);
+    void arrange(bool isStacked);
     void play(int direction);
 
     const FrameKind &m_kind;

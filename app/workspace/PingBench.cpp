@@ -28,10 +28,11 @@ namespace {
 
 PingBench::PingBench(Document &document, OutputLayers &layers, QWidget *parent)
     : Bench(document, pingFrames(), pingInterval, parent), m_layers(layers), m_viewports(document.viewport()),
-      m_input(new PingMap(tr("Input (dB over noise)"), m_viewports.map())),
-      m_output(new PingMap(tr("Statistic D (nat)"), m_viewports.map())), m_bar(new PingBar), m_axesBar(new AxesBar),
-      m_alongHistory(new WaterfallView(tr("D over range, best bearing"))),
-      m_acrossHistory(new WaterfallView(tr("D over bearing, best range"))),
+      m_input(new PingMap(tr("Input (dB over noise)"), m_viewports.map(), &document.display(), &m_mapDirection)),
+      m_output(new PingMap(tr("Statistic D (nat)"), m_viewports.map(), &document.display(), &m_mapDirection)),
+      m_bar(new PingBar), m_axesBar(new AxesBar),
+      m_alongHistory(new WaterfallView(tr("D over range, best bearing"), &document.display(), &m_historyDirection)),
+      m_acrossHistory(new WaterfallView(tr("D over bearing, best range"), &document.display(), &m_historyDirection)),
       m_regulation(new PingRegulation(m_viewports.alongTime())), m_maps(newSplitter(Qt::Horizontal))
 {
     setObjectName(QStringLiteral("pingBench"));
@@ -454,7 +455,7 @@ ViewState PingBench::viewState() const
         }
     }
     view.isPolar = m_output->isPolar();
-    view.colourMap = m_output->plane()->colourMap().name();
+    view.colourMap = m_document.display().colourMap().name();
     return view;
 }
 
@@ -478,7 +479,7 @@ void PingBench::restore(const ViewState &view)
     }
     setPolar(view.isPolar);
     if (!view.colourMap.isEmpty())
-        m_output->plane()->setColourMap(view.colourMap);
+        m_document.display().setColourMap(view.colourMap);
 }
 
 /// Of a session of frames on more than two axes; ignored if it does not fit these frames.

@@ -100,6 +100,8 @@ private:
 
     OutputLayers &m_layers;
     PingViewports m_viewports;
+    TimeDirection m_mapDirection;
+    TimeDirection m_historyDirection{TimeDirection::Orientation::LeftToRight};
     PingMap *m_input;
     PingMap *m_output;
     PingBar *m_bar;     ///< below the maps

@@ -42,8 +42,7 @@ void PingBench::buildHistories()
     m_output->setObjectName(QStringLiteral("pingOutput"));
     m_alongHistory->setViewport(&m_viewports.alongTime());
     m_acrossHistory->setViewport(&m_viewports.acrossTime());
-    m_alongHistory->setOrientation(WaterfallView::Orientation::LeftToRight); // the other follows
-    arrange(*m_alongHistory);
+    arrangeBy(m_historyDirection);
 }
 
 void PingBench::linkBar()

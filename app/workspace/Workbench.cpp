@@ -72,10 +72,12 @@ QString Workbench::inputHeading(bool isRest)
 }
 
 Workbench::Workbench(Document &document, QWidget *parent)
-    : Bench(document, lineFrames(), stepInterval, parent), m_input(new WaterfallView(inputHeading(false))),
-      m_output(new WaterfallView(tr("Statistic D (nat)"))), m_layers(new OutputLayers(document, *m_output, this)),
-      m_inputPane(ColourBar::pane(m_input)), m_outputPane(ColourBar::pane(m_output)),
-      m_statistic(new StripPlot(tr("D (nat)"))), m_regulation(new RegulationPlot)
+    : Bench(document, lineFrames(), stepInterval, parent),
+      m_input(new WaterfallView(inputHeading(false), &document.display(), &document.direction())),
+      m_output(new WaterfallView(tr("Statistic D (nat)"), &document.display(), &document.direction())),
+      m_layers(new OutputLayers(document, *m_output, this)), m_inputPane(ColourBar::pane(m_input)),
+      m_outputPane(ColourBar::pane(m_output)), m_statistic(new StripPlot(tr("D (nat)"))),
+      m_regulation(new RegulationPlot)
 {
     m_input->setObjectName(QStringLiteral("input"));
     m_output->setObjectName(QStringLiteral("output"));
@@ -86,6 +88,7 @@ Workbench::Workbench(Document &document, QWidget *parent)
     timeStack().add(*m_regulation, *m_regulation);
     addRows({{historyPanes(), 640}, {m_statistic, 106}, {m_regulation, 106}});
     linkViews();
+    arrangeBy(document.direction());
 
     connect(&document, &Document::opened, this, [this] {
         m_isFirstPicture = true;
@@ -119,10 +122,7 @@ void Workbench::linkViews()
     m_statistic->setViewport(viewport);
     m_regulation->setViewport(viewport);
     for (WaterfallView *view : {m_input, m_output}) {
-        WaterfallView *other = view == m_input ? m_output : m_input;
         view->setViewport(viewport);
-        connect(view, &WaterfallView::measuringChanged, other, &WaterfallView::setMeasuring);
-        connect(view, &WaterfallView::sidebandsChanged, other, &WaterfallView::setSidebandSpacing);
         connect(view, &WaterfallView::hovered, this, [this](double seconds, double hz) { read({seconds, hz}); });
         whenInUse(view, &WaterfallView::hoverEnded, &Workbench::readCursor);
     }
@@ -381,8 +381,8 @@ ViewState Workbench::viewState() const
     if (!viewport.isEmpty() && !viewport.showsAll())
         view.visible = viewport.visible();
     view.cursor = viewport.cursor();
-    view.orientation = orientationName(m_output->orientation());
-    view.colourMap = m_output->colourMap().name();
+    view.orientation = orientationName(m_document.direction().orientation());
+    view.colourMap = m_document.display().colourMap().name();
     view.isLogarithmic = viewport.isLogarithmic();
     view.isRadioAxis = m_isRadioAxis;
     return view;
@@ -398,9 +398,9 @@ void Workbench::restore(const ViewState &view)
     if (view.cursor)
         viewport.setCursor(*view.cursor);
     if (const auto orientation = orientationNamed(view.orientation))
-        m_output->setOrientation(*orientation);
+        m_document.direction().set(*orientation);
     if (!view.colourMap.isEmpty())
-        m_output->setColourMap(view.colourMap);
+        m_document.display().setColourMap(view.colourMap);
 }
 
 } // namespace faintline

@@ -10,7 +10,7 @@
 
 namespace faintline {
 
-void connectOverview(OverviewStrip &strip, Document &document, Workbench &bench)
+void connectOverview(OverviewStrip &strip, Document &document)
 {
     strip.setViewport(&document.viewport());
     const auto shown = std::make_shared<Index>(0); // live frames
@@ -33,8 +33,8 @@ void connectOverview(OverviewStrip &strip, Document &document, Workbench &bench)
     });
     QObject::connect(&document, &Document::shownEventsChanged, &strip,
                      [&strip, &document] { strip.setEvents(eventsAlong(document.shownEvents(), 0)); });
-    QObject::connect(bench.output(), &WaterfallView::colourMapChanged, &strip,
-                     [&strip](const QString &name) { strip.setColourMap(ColourMap::named(name)); });
+    QObject::connect(&document.display(), &PictureDisplay::coloursChanged, &strip,
+                     [&strip, &document] { strip.setColourMap(document.display().colourMap()); });
 }
 
 void connectReadOut(ReadOut &readOut, Document &document, Workbench &bench)

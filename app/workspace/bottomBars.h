@@ -8,7 +8,7 @@ class ReadOut;
 class Workbench;
 
 /// Shows the document in the bars below the pictures of lines.
-void connectOverview(OverviewStrip &strip, Document &document, Workbench &bench);
+void connectOverview(OverviewStrip &strip, Document &document);
 void connectReadOut(ReadOut &readOut, Document &document, Workbench &bench);
 
 } // namespace faintline

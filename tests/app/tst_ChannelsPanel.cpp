@@ -253,18 +253,24 @@ private slots:
         QVERIFY(settle(window->panel<ChannelsPanel>()));
     }
 
-    void followsTheOrientation()
+    /// Its pictures are made when it is first shown.
+    void followsWhatAllPicturesShow()
     {
         const auto window = newWindow();
         QVERIFY(openAndSettle(*window, recordingOf(m_folder, 2), makeQuick));
+        WaterfallView &input = *window->workbench().input();
+        input.direction().set(WaterfallView::Orientation::LeftToRight);
+        input.display().setColourMap("viridis");
         QVERIFY(showAndSettle(*window));
         LinkedPictures &pictures = window->panel<ChannelsPanel>().pictures();
-        window->workbench().output()->setOrientation(WaterfallView::Orientation::LeftToRight);
-        QCoreApplication::processEvents();
-        QCOMPARE(pictures.at(1).orientation(), WaterfallView::Orientation::LeftToRight);
+        QCOMPARE(pictures.at(1).direction().orientation(), WaterfallView::Orientation::LeftToRight);
+        QCOMPARE(pictures.at(1).display().colourMap().name(), "viridis");
         QVERIFY(pictures.at(1).y() > pictures.at(0).y());
-        pictures.at(0).setOrientation(WaterfallView::Orientation::OldestOnTop);
-        QCOMPARE(window->workbench().input()->orientation(), WaterfallView::Orientation::OldestOnTop);
+        for (const int key : {Qt::Key_O, Qt::Key_C, Qt::Key_H})
+            QTest::keyClick(&pictures.at(0), Qt::Key(key));
+        QCOMPARE(input.direction().orientation(), WaterfallView::Orientation::NewestOnTop);
+        QVERIFY(input.display().colourMap().name() != "viridis");
+        QVERIFY(input.display().hasHarmonics());
     }
 
     void isRendered()

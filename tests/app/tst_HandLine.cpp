@@ -126,8 +126,8 @@ private slots:
     void coveredNothingIsGivenAway()
     {
         QTest::mouseClick(buttonOf(panel(), "Cover the statistic"), Qt::LeftButton);
-        for (const auto layer : {WaterfallView::EventLayer, WaterfallView::TrackLayer, WaterfallView::TruthLayer})
-            QVERIFY(!input().layers().testFlag(layer));
+        for (const auto layer : {PictureDisplay::EventLayer, PictureDisplay::TrackLayer, PictureDisplay::TruthLayer})
+            QVERIFY(!input().display().shows(layer));
         QWidget *pane = m_window->workbench().outputView();
         QVERIFY(pane->childAt(pane->rect().center()) != m_window->workbench().output()->canvas());
         panel().line().setPoints({{10.0, 130.0}, {50.0, 210.0}});
@@ -135,7 +135,7 @@ private slots:
         QVERIFY(!sentenceOf(panel()).contains("track"));
 
         QTest::mouseClick(buttonOf(panel(), "Reveal the statistic"), Qt::LeftButton);
-        QVERIFY(input().layers().testFlag(WaterfallView::TruthLayer));
+        QVERIFY(input().display().shows(PictureDisplay::TruthLayer));
         QVERIFY(sentenceOf(panel()).contains("track"));
         QVERIFY(comparison().meanHz < 5.0);
     }

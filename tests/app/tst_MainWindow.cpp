@@ -188,7 +188,7 @@ private slots:
             QVERIFY(view->isRangeAutomatic());
             QCOMPARE(view->range(), view->automaticRange());
             QVERIFY(view->range().width() > 5.0);
-            QVERIFY(view->layers().testFlag(WaterfallView::EventLayer));
+            QVERIFY(view->display().shows(PictureDisplay::EventLayer));
         }
         QCOMPARE(shownIds(window->eventTable()).size(), events.size());
         QVERIFY(window->document().viewport().cursor());
@@ -290,10 +290,10 @@ private slots:
         WaterfallView *output = window->workbench().output();
         output->setFocus();
 
-        const auto orientation = output->orientation();
+        const auto orientation = output->direction().orientation();
         QTest::keyClick(output, Qt::Key_O);
-        QVERIFY(output->orientation() != orientation);
-        QCOMPARE(input->orientation(), output->orientation());
+        QVERIFY(output->direction().orientation() != orientation);
+        QCOMPARE(input->direction().orientation(), output->direction().orientation());
 
         QTest::keyClick(output, Qt::Key_L, Qt::ShiftModifier);
         QVERIFY(input->isLogarithmic() && output->isLogarithmic());
@@ -301,10 +301,10 @@ private slots:
         QTest::keyClick(output, Qt::Key_L, Qt::ShiftModifier);
         QVERIFY(!output->isLogarithmic());
 
-        const QString map = output->colourMap().name();
+        const QString map = output->display().colourMap().name();
         QTest::keyClick(output, Qt::Key_C);
-        QVERIFY(output->colourMap().name() != map);
-        QCOMPARE(input->colourMap().name(), output->colourMap().name());
+        QVERIFY(output->display().colourMap().name() != map);
+        QCOMPARE(input->display().colourMap().name(), output->display().colourMap().name());
 
         document.viewport().zoomTo({10.0, 20.0}, {100.0, 200.0});
         QVERIFY(!document.viewport().showsAll());
@@ -315,9 +315,9 @@ private slots:
         QVERIFY(document.viewport().showsAll());
 
         QTest::keyClick(output, Qt::Key_M);
-        QVERIFY(output->isMeasuring() && input->isMeasuring());
+        QVERIFY(output->display().isMeasuring() && input->display().isMeasuring());
         QTest::keyClick(output, Qt::Key_M);
-        QVERIFY(!output->isMeasuring());
+        QVERIFY(!output->display().isMeasuring());
 
         output->setRange(0.0, 10.0);
         QTest::keyClick(output, Qt::Key_A);
@@ -331,8 +331,9 @@ private slots:
         QTest::keyClick(output, Qt::Key_J);
         QVERIFY(std::abs(document.viewport().cursor()->seconds - 10.0) < 1e-9);
         const double hz = document.viewport().cursor()->hz;
-        QTest::keyClick(output,
-                        output->orientation() == WaterfallView::Orientation::LeftToRight ? Qt::Key_Up : Qt::Key_Right);
+        QTest::keyClick(output, output->direction().orientation() == WaterfallView::Orientation::LeftToRight
+                                    ? Qt::Key_Up
+                                    : Qt::Key_Right);
         QVERIFY(document.viewport().cursor()->hz > hz);
 
         QTest::keyClick(output, Qt::Key_Space);
@@ -548,7 +549,7 @@ private slots:
         QVERIFY(settle(*window));
         QVERIFY(window->isWindowModified());
         window->document().viewport().zoomTo({10.0, 20.0}, {100.0, 200.0});
-        window->workbench().output()->setColourMap("viridis");
+        window->workbench().output()->display().setColourMap("viridis");
         const Viewport::Box visible = window->document().viewport().visible();
         QSignalSpy saved(window.get(), &MainWindow::saved);
         QTest::keyClick(window.get(), Qt::Key_S, Qt::ControlModifier);
@@ -559,7 +560,7 @@ private slots:
         QVERIFY(openAndSettle(*other, path("s.faintline")));
         QCOMPARE(other->document().settings(), window->document().settings());
         QVERIFY(other->document().viewport().visible() == visible);
-        QCOMPARE(other->workbench().input()->colourMap().name(), "viridis");
+        QCOMPARE(other->workbench().input()->display().colourMap().name(), "viridis");
         QCOMPARE(other->document().shownEvents().size(), window->document().shownEvents().size());
         QVERIFY(!other->isWindowModified());
     }
@@ -568,7 +569,7 @@ private slots:
     {
         auto window = this->window();
         QVERIFY(openAndSettle(*window, m_scene));
-        window->workbench().output()->setColourMap("cividis");
+        window->workbench().output()->display().setColourMap("cividis");
         window->document().viewport().zoomTo({4.0, 16.0}, {100.0, 300.0});
         for (const QString &name : {QString("input"), QString("output"), QString("threshold")}) {
             const QString file = path(name + ".png");
@@ -598,7 +599,7 @@ private slots:
             Workbench &bench = window->workbench();
             const auto top = [&](const QWidget *view) { return view->mapTo(window.get(), QPoint()).y(); };
             QVERIFY(top(bench.input()) + bench.input()->height() <= top(bench.output()));
-            QCOMPARE(bench.output()->orientation(), WaterfallView::Orientation::LeftToRight);
+            QCOMPARE(bench.output()->direction().orientation(), WaterfallView::Orientation::LeftToRight);
             QVERIFY(settle(bench.layers()));
             QCOMPARE(itemOf<LayerItem>(*bench.output()).picture()->presence.empty(), false);
             QVERIFY(bench.output()->heading().contains("found"));
@@ -622,12 +623,12 @@ private slots:
             auto window = this->window(true);
             QVERIFY(openAndSettle(*window, path("tone.wav")));
             QVERIFY(openAndSettle(*window, m_scene));
-            window->workbench().output()->setColourMap("cividis");
+            window->workbench().output()->display().setColourMap("cividis");
             window->close();
         }
         auto window = this->window(true);
         QVERIFY(openAndSettle(*window, m_scene));
-        QCOMPARE(window->workbench().output()->colourMap().name(), "cividis");
+        QCOMPARE(window->workbench().output()->display().colourMap().name(), "cividis");
         QSettings memory(path("memory.ini"), QSettings::IniFormat);
         QCOMPARE(memory.value("recent").toStringList(), (QStringList{m_scene, path("tone.wav")}));
     }

@@ -73,7 +73,7 @@ private slots:
     void aBoxTellsItsAreaSnr()
     {
         QTest::keyClick(&input(), Qt::Key_M);
-        QVERIFY(input().isMeasuring() && output().isMeasuring());
+        QVERIFY(input().display().isMeasuring() && output().display().isMeasuring());
         drag(input(), {5.0, 138.0}, {55.0, 162.0});
         QTRY_VERIFY_WITH_TIMEOUT(boxText(input()).contains("area SNR"), patience);
         QCOMPARE(boxText(output()).section('\n', -1), boxText(input()).section('\n', -1));
@@ -96,15 +96,15 @@ private slots:
         QVERIFY(sidebands);
         QTest::keyClick(&input(), Qt::Key_I);
         QVERIFY(sidebands->isChecked());
-        QVERIFY(input().sidebandSpacing() > 0.0);
-        QCOMPARE(output().sidebandSpacing(), input().sidebandSpacing());
-        drag(output(), {10.0, 250.0 + output().sidebandSpacing()}, {10.0, 280.0});
-        QVERIFY2(std::abs(input().sidebandSpacing() - 30.0) < 2.0,
-                 qPrintable(QString::number(input().sidebandSpacing())));
-        QCOMPARE(output().sidebandSpacing(), input().sidebandSpacing());
+        QVERIFY(input().display().sidebandSpacing() > 0.0);
+        QCOMPARE(output().display().sidebandSpacing(), input().display().sidebandSpacing());
+        drag(output(), {10.0, 250.0 + output().display().sidebandSpacing()}, {10.0, 280.0});
+        QVERIFY2(std::abs(input().display().sidebandSpacing() - 30.0) < 2.0,
+                 qPrintable(QString::number(input().display().sidebandSpacing())));
+        QCOMPARE(output().display().sidebandSpacing(), input().display().sidebandSpacing());
         QTest::keyClick(&input(), Qt::Key_Escape);
         QVERIFY(!sidebands->isChecked());
-        QCOMPARE(output().sidebandSpacing(), 0.0);
+        QCOMPARE(output().display().sidebandSpacing(), 0.0);
     }
 
     void theCursorFindsTheLine()

@@ -62,7 +62,7 @@ QImage above(const QImage &upper, const QImage &lower)
 QImage linePicture(MainWindow &window)
 {
     Workbench &bench = window.workbench();
-    bench.output()->setOrientation(WaterfallView::Orientation::LeftToRight);
+    bench.output()->direction().set(WaterfallView::Orientation::LeftToRight);
     bench.layers().setLayer(OutputLayer::Presence);
     QWidget &input = *bench.inputView(), &output = *bench.outputView();
     const TimeStack::Part alone(bench.timeStack(), input);
@@ -84,10 +84,10 @@ QImage sonarPicture(const Analysis &analysis)
     const auto picture = [&](const std::shared_ptr<const PeakPyramid> &values, std::optional<double> threshold) {
         WaterfallView view(QString{});
         view.setViewport(&viewport);
-        view.setOrientation(WaterfallView::Orientation::LeftToRight);
+        view.direction().set(WaterfallView::Orientation::LeftToRight);
         if (threshold)
             view.setThreshold(*threshold);
-        view.setLayer(WaterfallView::ThresholdLayer, false);
+        view.display().setLayer(PictureDisplay::ThresholdLayer, false);
         view.setPicture(values, range);
         return bare(view, 2.0, view);
     };

@@ -70,7 +70,7 @@ private slots:
 
         for (int i = 0; i < 2; ++i) // newest on top, oldest on top, left to right
             QTest::keyClick(bench.output(), Qt::Key_O);
-        QCOMPARE(output.orientation(), Orientation::LeftToRight);
+        QCOMPARE(output.direction().orientation(), Orientation::LeftToRight);
         QCoreApplication::processEvents();
         std::vector<ThemedPlot *> all{bench.input(), bench.output()};
         for (StripPlot *strip : {bench.statisticPlot(), bench.regulationPlot()})
@@ -105,7 +105,7 @@ private slots:
         const auto window = newWindow();
         QVERIFY(openAndSettle(*window, writeFile(m_folder, "lines.json", lines), makeQuick));
         Workbench &bench = window->workbench();
-        bench.output()->setOrientation(Orientation::LeftToRight);
+        bench.output()->direction().set(Orientation::LeftToRight);
         QTest::keyClick(bench.output(), Qt::Key_V); // a layer has a key instead of the bar
         QCoreApplication::processEvents();
         QVERIFY(edges(*bench.input(), *window) == edges(*bench.output(), *window));
@@ -118,9 +118,9 @@ private slots:
         QVERIFY(openAndSettle(*window, writeFile(m_folder, "lines.json", lines), makeQuick));
         Workbench &bench = window->workbench();
         const QByteArray sideBySide = bench.saveSplitters();
-        bench.output()->setOrientation(Orientation::LeftToRight);
+        bench.output()->direction().set(Orientation::LeftToRight);
         const ViewState view = bench.viewState();
-        bench.output()->setOrientation(Orientation::NewestOnTop);
+        bench.output()->direction().set(Orientation::NewestOnTop);
         bench.restore(view);
         bench.restoreSplitters(sideBySide); // sizes of another arrangement
         QCoreApplication::processEvents();
@@ -134,7 +134,7 @@ private slots:
         const auto window = newWindow();
         QVERIFY(openAndSettle(*window, writeFile(m_folder, "lines.json", lines), makeQuick));
         Workbench &bench = window->workbench();
-        bench.output()->setOrientation(Orientation::LeftToRight);
+        bench.output()->direction().set(Orientation::LeftToRight);
         QCoreApplication::processEvents();
         QVERIFY(!labelsTime(*bench.input()));
         const QImage without = bench.inputView()->grab().toImage();
@@ -164,9 +164,9 @@ private slots:
         QVERIFY(edges(range, *window) == edges(bearing, *window));
         QVERIFY(edges(range, *window) == edges(*regulation, *window));
         QVERIFY(!labelsTime(range) && !labelsTime(bearing) && labelsTime(*regulation));
-        bench.acrossHistory()->setOrientation(Orientation::NewestOnTop);
+        bench.acrossHistory()->direction().set(Orientation::NewestOnTop);
         QCoreApplication::processEvents();
-        QCOMPARE(range.orientation(), Orientation::NewestOnTop);
+        QCOMPARE(range.direction().orientation(), Orientation::NewestOnTop);
         QCOMPARE(cornerOf(range, *window).y(), cornerOf(bearing, *window).y());
     }
 };

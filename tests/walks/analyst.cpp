@@ -147,7 +147,7 @@ void analyseBox(Walk &walk)
 {
     WaterfallView &output = *walk.window().workbench().output();
     walk.hand.press("m");
-    walk.waitUntil("measuring", [&] { return output.isMeasuring(); });
+    walk.waitUntil("measuring", [&] { return output.display().isMeasuring(); });
     walk.hand.drag(walk.placeIn(output, 80.0, 290.0), walk.placeIn(output, 160.0, 350.0));
     walk.waitUntil("a measured box", [&] { return walk.window().document().box().has_value(); });
     walk.takePicture("analyst-box");
@@ -158,7 +158,7 @@ void analyseBox(Walk &walk)
     walk.choose({"Analyse", "Analyse the whole recording"});
     waitForEvents(walk, 3);
     walk.hand.press("m");
-    walk.waitUntil("no more measuring", [&] { return !output.isMeasuring(); });
+    walk.waitUntil("no more measuring", [&] { return !output.display().isMeasuring(); });
 }
 
 /// Accepts, rejects and classifies events: in the table as in the picture.

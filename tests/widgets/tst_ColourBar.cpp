@@ -94,7 +94,7 @@ private slots:
         emit bar.automaticRequested();
         QVERIFY(view.isRangeAutomatic());
         QCOMPARE(bar.range(), view.range());
-        view.setColourMap("viridis");
+        view.display().setColourMap("viridis");
         bar.grab();
     }
 

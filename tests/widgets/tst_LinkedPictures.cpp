@@ -36,7 +36,9 @@ private slots:
     void init()
     {
         m_viewport.setExtents({0.0, 200.0}, {99.0, 119.0}, 1.0, 2.0);
-        m_pictures = std::make_unique<LinkedPictures>(m_viewport);
+        m_direction.set(Orientation::NewestOnTop);
+        m_display.setColourMap(ColourMap::defaultName());
+        m_pictures = std::make_unique<LinkedPictures>(m_viewport, m_display, m_direction);
         m_pictures->setCount(3);
         const float levels[] = {0.0f, 15.0f, -5.0f};
         for (int place = 0; place < 3; ++place)
@@ -110,21 +112,19 @@ private slots:
         const auto corner = [&](int place) { return m_pictures->at(place).mapTo(m_pictures.get(), QPoint()); };
         QCOMPARE(corner(0).y(), corner(2).y());
         QVERIFY(corner(1).x() >= corner(0).x() + 180 && corner(2).x() >= corner(1).x() + 180);
-        QSignalSpy turned(m_pictures.get(), &LinkedPictures::orientationChanged);
-        m_pictures->at(1).setOrientation(Orientation::LeftToRight);
-        QCOMPARE(turned.size(), 1);
+        m_direction.set(Orientation::LeftToRight);
         QCoreApplication::processEvents();
         QCOMPARE(corner(0).x(), corner(2).x());
         QVERIFY(corner(1).y() >= corner(0).y() + 110 && corner(2).y() >= corner(1).y() + 110);
         for (int place = 0; place < 3; ++place) {
             const WaterfallView &view = m_pictures->at(place);
-            QCOMPARE(view.orientation(), Orientation::LeftToRight);
+            QCOMPARE(view.direction().orientation(), Orientation::LeftToRight);
             QCOMPARE(view.canvas()->mapTo(m_pictures.get(), QPoint()).x(),
                      m_pictures->at(0).canvas()->mapTo(m_pictures.get(), QPoint()).x());
             QCOMPARE(view.canvas()->width(), m_pictures->at(0).canvas()->width());
             QCOMPARE(view.isAxisVisible(QwtAxis::XBottom), place == 2);
         }
-        m_pictures->setOrientation(Orientation::OldestOnTop);
+        m_direction.set(Orientation::OldestOnTop);
         QCoreApplication::processEvents();
         QCOMPARE(corner(0).y(), corner(2).y());
     }
@@ -141,8 +141,8 @@ private slots:
     void colourMapIsShared()
     {
         QTest::keyClick(&m_pictures->at(1), Qt::Key_C);
-        QVERIFY(m_pictures->at(1).colourMap().name() != ColourMap::defaultName());
-        QCOMPARE(m_pictures->at(0).colourMap().name(), m_pictures->at(1).colourMap().name());
+        QVERIFY(m_pictures->at(1).display().colourMap().name() != ColourMap::defaultName());
+        QCOMPARE(m_pictures->at(0).display().colourMap().name(), m_pictures->at(1).display().colourMap().name());
     }
 
 private:
@@ -157,6 +157,8 @@ private:
     }
 
     Viewport m_viewport;
+    PictureDisplay m_display;
+    TimeDirection m_direction;
     std::unique_ptr<LinkedPictures> m_pictures;
 };
 

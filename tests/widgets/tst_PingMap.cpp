@@ -3,7 +3,7 @@
 #include "support/test.h"
 #include "widgets/pings/PingMap.h"
 
-#include "frames/pictureCuts.h"
+#include "pingPictures.h"
 #include "pixels.h"
 #include "widgets/base/Theme.h"
 #include "widgets/pings/PingViewports.h"
@@ -18,23 +18,13 @@
 #include <cmath>
 
 using namespace faintline;
+using namespace faintline::test;
 
 namespace {
 
-constexpr Index ranges = 50;
-constexpr Index beams = 8;
-
 Grid grid()
 {
-    return {{{"range", "m", 1000.0, 10.0, ranges, false}, {"bearing", "°", 0.0, 45.0, beams, true}}};
-}
-
-/// Nothing but one bright cell.
-std::shared_ptr<const PeakPyramid> picture(Index range, Index beam)
-{
-    std::vector<float> values(std::size_t(ranges * beams), 1.0f);
-    values[std::size_t(range * beams + beam)] = 30.0f;
-    return pictureOf(grid().axes[0], grid().axes[1], values, ByteScale(ByteScale::Kind::ScoreNats));
+    return {{rangeAxis, bearingAxis}};
 }
 
 void setExtents(Viewport &viewport)
@@ -188,7 +178,7 @@ private slots:
     void fromAboveACellIsWhereItsBearingPoints()
     {
         PolarItem item;
-        item.setPicture(picture(40, 2), grid().axes[1]); // 1400 m, 90°: east
+        item.setPicture(pingPicture(40, 2), grid().axes[1]); // 1400 m, 90°: east
         item.setColours(ColourMap::named("grey"), {0.0, 30.0});
         item.setGround(Qt::blue);
         const QImage image = item.image({-1500.0, 1500.0}, {-1500.0, 1500.0}, {300, 300});
@@ -202,7 +192,7 @@ private slots:
     void oneCellSurvivesManyToAPixel()
     {
         PolarItem item;
-        item.setPicture(picture(23, 0), grid().axes[1]);
+        item.setPicture(pingPicture(23, 0), grid().axes[1]);
         item.setColours(ColourMap::named("grey"), {0.0, 30.0});
         const QImage image = item.image({-1500.0, 1500.0}, {-1500.0, 1500.0}, {60, 60}); // five ranges a pixel
         bool isFound = false;
@@ -216,7 +206,7 @@ private slots:
         Viewport viewport;
         setExtents(viewport);
         PingMap map("Statistic", viewport);
-        map.setPicture(picture(10, 3), grid().axes[1]);
+        map.setPicture(pingPicture(10, 3), grid().axes[1]);
         test::show(map, {500, 400});
         QSignalSpy changed(&map, &PingMap::polarChanged);
         QTest::keyClick(map.plane(), Qt::Key_P);
@@ -234,7 +224,7 @@ private slots:
         Viewport viewport;
         setExtents(viewport);
         PingMap map("Statistic", viewport);
-        map.setPicture(picture(10, 3), grid().axes[1]);
+        map.setPicture(pingPicture(10, 3), grid().axes[1]);
         map.setPolar(true);
         test::show(map, {500, 400});
         PolarView &polar = *map.polar();
@@ -260,7 +250,7 @@ private slots:
         setExtents(viewport);
         PingMap map("Input", viewport);
         map.resize(500, 400);
-        map.setPicture(picture(10, 3), grid().axes[1]);
+        map.setPicture(pingPicture(10, 3), grid().axes[1]);
         QCOMPARE(map.plane()->axisTitle(QwtAxis::YLeft).text(), "Range (m)");
         QCOMPARE(map.plane()->axisTitle(QwtAxis::XBottom).text(), "Bearing (°)");
         QCOMPARE(*map.plane()->valueAt(1100.0, 135.0), 30.0);
@@ -271,7 +261,7 @@ private slots:
         Viewport viewport;
         setExtents(viewport);
         PingMap map("Statistic", viewport);
-        map.setPicture(picture(10, 3), grid().axes[1]);
+        map.setPicture(pingPicture(10, 3), grid().axes[1]);
         test::show(map, {500, 400});
         const Span range = map.plane()->range();
         std::vector<float> louder(std::size_t(ranges * beams));
@@ -290,7 +280,7 @@ private slots:
         Viewport viewport;
         setExtents(viewport);
         PingMap map("Statistic", viewport);
-        map.setPicture(picture(10, 3), grid().axes[1]);
+        map.setPicture(pingPicture(10, 3), grid().axes[1]);
         test::show(map, {500, 400});
         const PingMarks marks = pingMarks(sixPings(), {track(1, {{20, 6}, {24, 7}, {28, 0}, {32, 1}})}, {}, 3);
         for (const bool isPolar : {false, true}) {
@@ -301,9 +291,9 @@ private slots:
             const QImage with = map.grab().toImage();
             QVERIFY(with != without);
             QVERIFY(with == map.grab().toImage()); // stable
-            map.plane()->setLayer(WaterfallView::TrackLayer, false);
+            map.plane()->display().setLayer(PictureDisplay::TrackLayer, false);
             QVERIFY(map.grab().toImage() == without);
-            map.plane()->setLayer(WaterfallView::TrackLayer, true);
+            map.plane()->display().setLayer(PictureDisplay::TrackLayer, true);
         }
     }
 };

@@ -1,7 +1,7 @@
 #include "support/test.h"
 #include "widgets/pings/PolarView.h"
 
-#include "frames/pictureCuts.h"
+#include "pingPictures.h"
 #include "pixels.h"
 #include "widgets/base/Theme.h"
 #include "widgets/pings/PolarItem.h"
@@ -15,25 +15,7 @@
 #include <limits>
 
 using namespace faintline;
-
-namespace {
-
-constexpr Index ranges = 50;
-constexpr Index beams = 8;
-
-const Axis rangeAxis{"range", "m", 1000.0, 10.0, ranges, false};
-const Axis bearingAxis{"bearing", "°", 0.0, 45.0, beams, true};
-
-/// 1 nat in every cell but three along a bearing, so that a pixel lies within them.
-std::shared_ptr<const PeakPyramid> picture(Index range, Index beam, const Axis &bearings = bearingAxis)
-{
-    std::vector<float> values(std::size_t(ranges * bearings.count), 1.0f);
-    for (const Index near : {range - 1, range, range + 1})
-        values[std::size_t(near * bearings.count + beam)] = 30.0f;
-    return pictureOf(rangeAxis, bearings, values, ByteScale(ByteScale::Kind::ScoreNats));
-}
-
-} // namespace
+using namespace faintline::test;
 
 /// A ping from above: it looks as the plane it belongs to, and mouse and keys do to it what they do there.
 class tst_PolarView : public QObject
@@ -48,8 +30,8 @@ private slots:
         m_viewport.setExtents({995.0, 1495.0}, {-22.5, 337.5}, 40.0, 45.0);
         m_plane = std::make_unique<WaterfallView>("Statistic");
         m_plane->setViewport(&m_viewport);
-        m_plane->setColourMap("grey");
-        m_plane->setPicture(picture(40, 2), bearingAxis); // 1400 m, 90°: east
+        m_plane->display().setColourMap("grey");
+        m_plane->setPicture(pingPicture(40, 2, 1), bearingAxis); // 1400 m, 90°: east
         m_plane->setRange(0.0, 30.0);
         m_polar = std::make_unique<PolarView>(*m_plane);
         m_polar->followPicture();
@@ -85,9 +67,9 @@ private slots:
         QVERIFY(qGray(at(1400.0, 260.0)) < 20);
         m_plane->setRange(0.0, 60.0);
         QVERIFY(std::abs(qGray(at(1400.0, 80.0)) - 128) <= 2);
-        m_plane->setColourMap("paper");
+        m_plane->display().setColourMap("paper");
         QVERIFY(qGray(at(1400.0, 260.0)) > 235);
-        m_plane->setPicture(picture(40, 6), bearingAxis); // west
+        m_plane->setPicture(pingPicture(40, 6, 1), bearingAxis); // west
         m_plane->setRange(0.0, 30.0);
         m_polar->followPicture();
         QVERIFY(qGray(at(1400.0, 260.0)) < 20);
@@ -100,9 +82,9 @@ private slots:
         QVERIFY(!test::coloursOf(*m_polar).contains(contour));
         m_plane->setThreshold(12.0);
         QVERIFY(test::coloursOf(*m_polar).contains(contour));
-        m_plane->setLayer(WaterfallView::ThresholdLayer, false);
+        m_plane->display().setLayer(PictureDisplay::ThresholdLayer, false);
         QVERIFY(!test::coloursOf(*m_polar).contains(contour));
-        m_plane->setLayer(WaterfallView::ThresholdLayer, true);
+        m_plane->display().setLayer(PictureDisplay::ThresholdLayer, true);
         m_plane->setThreshold(std::numeric_limits<double>::quiet_NaN()); // none
         QVERIFY(!test::coloursOf(*m_polar).contains(contour));
     }
@@ -162,7 +144,7 @@ private slots:
         QTest::keyClick(m_polar.get(), Qt::Key_Right);
         QCOMPARE(*m_viewport.cursor(), (Viewport::Point{1310.0, 135.0}));
         QTest::keyClick(m_polar.get(), Qt::Key_C);
-        QVERIFY(m_plane->colourMap().name() != "grey");
+        QVERIFY(m_plane->display().colourMap().name() != "grey");
     }
 
     void theMenuIsThePlanes()

@@ -34,7 +34,7 @@ struct Column {
         for (QWidget *widget : std::initializer_list<QWidget *>{upperPane, lower, curve, both})
             layout->addWidget(widget, 1);
         for (WaterfallView *view : {upper, lower}) {
-            view->setOrientation(WaterfallView::Orientation::LeftToRight);
+            view->direction().set(WaterfallView::Orientation::LeftToRight);
             view->setMinimumSize(100, 80);
             view->setViewport(&viewport);
         }

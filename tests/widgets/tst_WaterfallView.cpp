@@ -115,14 +115,14 @@ private slots:
         QCOMPARE(threshold[0][0].toInt(), -1);
         QCOMPARE(threshold[1][0].toInt(), 1);
 
-        QSignalSpy orientation(m_view.get(), &WaterfallView::orientationChanged);
+        QSignalSpy orientation(&m_view->direction(), &TimeDirection::changed);
         for (int i = 0; i < 3; ++i)
             QTest::keyClick(m_view.get(), Qt::Key_O);
         QCOMPARE(orientation.count(), 3);
-        QCOMPARE(m_view->orientation(), WaterfallView::Orientation::NewestOnTop);
+        QCOMPARE(m_view->direction().orientation(), WaterfallView::Orientation::NewestOnTop);
 
         QTest::keyClick(m_view.get(), Qt::Key_C);
-        QCOMPARE(m_view->colourMap().name(), ColourMap::names()[1]);
+        QCOMPARE(m_view->display().colourMap().name(), ColourMap::names()[1]);
 
         m_viewport.zoomTo({40.0, 60.0}, {200.0, 300.0});
         QTest::keyClick(m_view.get(), Qt::Key_0);
@@ -159,7 +159,7 @@ private slots:
     void measuring()
     {
         QTest::keyClick(m_view.get(), Qt::Key_M);
-        QVERIFY(m_view->isMeasuring());
+        QVERIFY(m_view->display().isMeasuring());
         drag(pixel(20.0, 200.0), pixel(60.0, 300.0));
         QVERIFY(m_viewport.selection());
         QVERIFY(std::abs(m_viewport.selection()->time.width() - 40.0) < 0.5);
@@ -224,22 +224,22 @@ private slots:
     void sidebandsAreDragged()
     {
         m_viewport.setCursor({40.5, 300.0});
-        QSignalSpy changed(m_view.get(), &WaterfallView::sidebandsChanged);
+        QSignalSpy changed(&m_view->display(), &PictureDisplay::linesChanged);
         QTest::keyClick(m_view.get(), Qt::Key_I);
-        const double before = m_view->sidebandSpacing();
+        const double before = m_view->display().sidebandSpacing();
         QVERIFY(before > 0.0);
         QCOMPARE(changed.count(), 1);
         QVERIFY2(overlay().sidebandText.contains("carrier 300"), qPrintable(overlay().sidebandText));
         drag(pixel(70.0, 300.0 - 2.0 * before), pixel(60.0, 220.0)); // the second one below
-        QVERIFY2(std::abs(m_view->sidebandSpacing() - 40.0) < 1.0,
-                 qPrintable(QString::number(m_view->sidebandSpacing())));
+        QVERIFY2(std::abs(m_view->display().sidebandSpacing() - 40.0) < 1.0,
+                 qPrintable(QString::number(m_view->display().sidebandSpacing())));
         QCOMPARE(m_viewport.cursor()->hz, 300.0);
         QVERIFY(m_viewport.showsAll());
         // With Ctrl onto the peak at 200 Hz: the line has its level.
         const double peak = test::hzAxis(200).value(50);
-        drag(pixel(40.0, 300.0 - 2.0 * m_view->sidebandSpacing()),
+        drag(pixel(40.0, 300.0 - 2.0 * m_view->display().sidebandSpacing()),
              m_view->positionOf({40.5, peak}).toPoint() + QPoint(5, 3), Qt::ControlModifier);
-        QCOMPARE(m_view->sidebandSpacing(), (300.0 - peak) / 2.0);
+        QCOMPARE(m_view->display().sidebandSpacing(), (300.0 - peak) / 2.0);
         QVERIFY2(overlay().sidebandText.contains("30.0"), qPrintable(overlay().sidebandText));
         // Beside the lines one still pans.
         m_viewport.zoomTo({20.0, 60.0}, {200.0, 400.0});
@@ -322,12 +322,12 @@ private slots:
     void everyOrientationShowsTheSameCell()
     {
         m_viewport.zoomTo({38.0, 44.0}, {190.0, 210.0});
-        m_view->setColourMap("grey");
+        m_view->display().setColourMap("grey");
         m_view->setRange(0.0, 30.0);
-        m_view->setLayer(WaterfallView::CursorLayer, false);
+        m_view->display().setLayer(PictureDisplay::CursorLayer, false);
         for (const auto orientation : {WaterfallView::Orientation::NewestOnTop, WaterfallView::Orientation::OldestOnTop,
                                        WaterfallView::Orientation::LeftToRight}) {
-            m_view->setOrientation(orientation);
+            m_view->direction().set(orientation);
             QCoreApplication::processEvents();
             const QImage image = m_view->canvas()->grab().toImage();
             QCOMPARE(qGreen(image.pixel(pixel(40.5, 200.0))), 255);
@@ -342,7 +342,7 @@ private slots:
         m_viewport.setLogarithmic(true);
         for (const auto orientation :
              {WaterfallView::Orientation::NewestOnTop, WaterfallView::Orientation::LeftToRight}) {
-            m_view->setOrientation(orientation);
+            m_view->direction().set(orientation);
             const Span visible = m_viewport.frequency();
             const QPointF low = m_view->positionOf({50.0, visible.low}),
                           high = m_view->positionOf({50.0, visible.high}),
@@ -427,7 +427,7 @@ private slots:
         track.endFrame = 59;
         const Axis &time = m_view->picture()->time();
         const Axis hz = test::hzAxis(200);
-        m_view->setLayer(WaterfallView::TrackLayer, true);
+        m_view->display().setLayer(PictureDisplay::TrackLayer, true);
         m_view->setTracks({track}, time);
         const QPoint inside = pixel(time.value(40.0), hz.value(90.0));
         const QPoint outside = pixel(time.value(40.0), hz.value(70.0));

@@ -50,12 +50,12 @@ private slots:
 
     void withCtrlLettersAreLeftToOthers()
     {
-        const auto before = m_view->orientation();
+        const auto before = m_view->direction().orientation();
         for (const Qt::KeyboardModifier modifier : {Qt::ControlModifier, Qt::AltModifier, Qt::MetaModifier})
             for (const int key : {Qt::Key_O, Qt::Key_A, Qt::Key_C, Qt::Key_0, Qt::Key_M})
                 QVERIFY(!press(key, modifier));
-        QCOMPARE(m_view->orientation(), before);
-        QVERIFY(!m_view->isMeasuring());
+        QCOMPARE(m_view->direction().orientation(), before);
+        QVERIFY(!m_view->display().isMeasuring());
         QVERIFY(press(Qt::Key_BraceLeft, Qt::ShiftModifier)); // Shift is how some are typed
     }
 
@@ -83,7 +83,7 @@ private slots:
         QFETCH(WaterfallView::Orientation, orientation);
         QFETCH(int, later);
         QFETCH(int, higher);
-        m_view->setOrientation(orientation);
+        m_view->direction().set(orientation);
         m_view->grab();
         const Viewport::Point start{10.5, 140.0};
         m_viewport.setCursor(start);
@@ -135,32 +135,33 @@ private slots:
         press(Qt::Key_H);
         press(Qt::Key_I);
         m_viewport.setSelection({{10.0, 20.0}, {120.0, 140.0}});
-        QVERIFY(m_view->isMeasuring() && m_view->hasHarmonics() && m_view->sidebandSpacing() > 0.0);
+        QVERIFY(m_view->display().isMeasuring() && m_view->display().hasHarmonics()
+                && m_view->display().sidebandSpacing() > 0.0);
         QVERIFY(press(Qt::Key_Escape));
-        QVERIFY(!m_view->isMeasuring() && !m_view->hasHarmonics());
-        QCOMPARE(m_view->sidebandSpacing(), 0.0);
+        QVERIFY(!m_view->display().isMeasuring() && !m_view->display().hasHarmonics());
+        QCOMPARE(m_view->display().sidebandSpacing(), 0.0);
         QVERIFY(!m_viewport.cursor() && !m_viewport.selection());
     }
 
     void sidebandsNeverComeCloserThanABin()
     {
         m_viewport.setCursor({10.5, 140.0});
-        m_view->setSidebandSpacing(4.0);
+        m_view->display().setSidebandSpacing(4.0);
         for (int i = 0; i < 5; ++i)
             QVERIFY(press(Qt::Key_Left, Qt::AltModifier));
-        QCOMPARE(m_view->sidebandSpacing(), 2.0);
+        QCOMPARE(m_view->display().sidebandSpacing(), 2.0);
         QVERIFY(press(Qt::Key_Right, Qt::AltModifier));
-        QCOMPARE(m_view->sidebandSpacing(), 4.0);
+        QCOMPARE(m_view->display().sidebandSpacing(), 4.0);
         QCOMPARE(m_viewport.cursor()->hz, 140.0);
     }
 
     void theMenuHasTheStateOfTheView()
     {
         m_viewport.setCursor({10.5, 140.0});
-        m_view->setOrientation(WaterfallView::Orientation::LeftToRight);
+        m_view->direction().set(WaterfallView::Orientation::LeftToRight);
         m_view->setRange(1.0, 5.0);
-        m_view->setLayer(WaterfallView::TrackLayer, false);
-        m_view->setMeasuring(true);
+        m_view->display().setLayer(PictureDisplay::TrackLayer, false);
+        m_view->display().setMeasuring(true);
         QMenu menu;
         addCommands(menu, *m_view);
         for (const char *on : {"Left to right", "Events", "Measure a box"})
@@ -184,9 +185,9 @@ private slots:
         entry(menu, "Zoom back")->trigger();
         QVERIFY(m_viewport.showsAll());
         entry(menu, "Oldest on top")->trigger();
-        QCOMPARE(m_view->orientation(), WaterfallView::Orientation::OldestOnTop);
+        QCOMPARE(m_view->direction().orientation(), WaterfallView::Orientation::OldestOnTop);
         entry(menu, "viridis")->trigger();
-        QCOMPARE(m_view->colourMap().name(), QString("viridis"));
+        QCOMPARE(m_view->display().colourMap().name(), QString("viridis"));
         entry(menu, "Automatic range")->trigger();
         QVERIFY(m_view->isRangeAutomatic());
         const Span automatic = m_view->range();
@@ -194,16 +195,16 @@ private slots:
         QVERIFY(!m_view->isRangeAutomatic());
         QVERIFY(m_view->range() == automatic);
         entry(menu, "Grid")->trigger();
-        QVERIFY(m_view->layers().testFlag(WaterfallView::GridLayer));
+        QVERIFY(m_view->display().shows(PictureDisplay::GridLayer));
         entry(menu, "Harmonics of the cursor")->trigger();
-        QVERIFY(m_view->hasHarmonics());
+        QVERIFY(m_view->display().hasHarmonics());
         entry(menu, "Sidebands of the cursor")->trigger();
-        QVERIFY(m_view->sidebandSpacing() > 0.0);
+        QVERIFY(m_view->display().sidebandSpacing() > 0.0);
     }
 
     void coloursAreAllThereAndOneIsOn()
     {
-        m_view->setColourMap("cividis");
+        m_view->display().setColourMap("cividis");
         QMenu menu;
         addCommands(menu, *m_view);
         QStringList on;
@@ -245,7 +246,7 @@ private slots:
         QVERIFY(!entry(menu, "Sidebands of the cursor"));
         m_viewport.setCursor({10.5, 140.0});
         press(Qt::Key_I);
-        QCOMPARE(m_view->sidebandSpacing(), 0.0);
+        QCOMPARE(m_view->display().sidebandSpacing(), 0.0);
     }
 
     void keysOfTheMenuAreTextOnly()

@@ -13,13 +13,12 @@
 
 namespace faintline {
 
-PingMap::PingMap(const QString &heading, Viewport &viewport, QWidget *parent)
-    : QWidget(parent), m_viewport(viewport), m_pages(new QStackedWidget), m_bar(new ColourBar),
-      m_plane(new WaterfallView(heading)),
+PingMap::PingMap(const QString &heading, Viewport &viewport, PictureDisplay *display, TimeDirection *direction)
+    : m_viewport(viewport), m_pages(new QStackedWidget), m_bar(new ColourBar),
+      m_plane(new WaterfallView(heading, display, direction)),
       m_overlay(new PingOverlayItem([this](const PingMarks::Place &place, const QwtScaleMap &x, const QwtScaleMap &y) {
-          return m_plane->orientation() == WaterfallView::Orientation::LeftToRight
-                     ? QPointF(x.transform(place.along), y.transform(place.across))
-                     : QPointF(x.transform(place.across), y.transform(place.along));
+          return m_plane->isTimeVertical() ? QPointF(x.transform(place.across), y.transform(place.along))
+                                           : QPointF(x.transform(place.along), y.transform(place.across));
       }))
 {
     m_plane->setViewport(&viewport);
@@ -36,7 +35,7 @@ PingMap::PingMap(const QString &heading, Viewport &viewport, QWidget *parent)
     layout->setSpacing(0);
     layout->addWidget(m_pages, 1);
     layout->addWidget(m_bar);
-    connect(m_plane, &WaterfallView::layersChanged, this, &PingMap::follow);
+    connect(&m_plane->display(), &PictureDisplay::layersChanged, this, &PingMap::follow);
     connect(&viewport, &Viewport::cursorChanged, this, &PingMap::follow);
     connect(m_plane, &WaterfallView::hovered, this,
             [this](double range, double bearing) { emit hovered(range, bearing); });
@@ -137,13 +136,13 @@ void PingMap::setPolar(bool polar)
 
 void PingMap::follow()
 {
-    const auto layers = m_plane->layers();
-    m_overlay->hasTracks = layers.testFlag(WaterfallView::TrackLayer);
-    m_overlay->hasTruth = layers.testFlag(WaterfallView::TruthLayer);
-    m_overlay->hasEvents = layers.testFlag(WaterfallView::EventLayer);
+    const PictureDisplay &display = m_plane->display();
+    m_overlay->hasTracks = display.shows(PictureDisplay::TrackLayer);
+    m_overlay->hasTruth = display.shows(PictureDisplay::TruthLayer);
+    m_overlay->hasEvents = display.shows(PictureDisplay::EventLayer);
     // The plane has its own crosshair.
     const auto &cursor = m_viewport.cursor();
-    m_polar->overlay().cursor = cursor && layers.testFlag(WaterfallView::CursorLayer)
+    m_polar->overlay().cursor = cursor && display.shows(PictureDisplay::CursorLayer)
                                     ? std::optional(PingMarks::Place{cursor->seconds, cursor->hz})
                                     : std::nullopt;
     m_overlay->colours = m_polar->overlay().colours = Theme::colours(*this);

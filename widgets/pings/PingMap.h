@@ -21,8 +21,9 @@ class PingMap : public QWidget
 public:
     using Axis = faintline::Axis;
 
-    /// `viewport`: range in place of time, bearing in place of frequency; not owned.
-    PingMap(const QString &heading, Viewport &viewport, QWidget *parent = nullptr);
+    /// `viewport`: range in place of time, bearing in place of frequency. `display`, `direction`: as of a WaterfallView.
+    PingMap(const QString &heading, Viewport &viewport, PictureDisplay *display = nullptr,
+            TimeDirection *direction = nullptr);
 
     WaterfallView *plane() const { return m_plane; }
     PolarView *polar() const { return m_polar; }

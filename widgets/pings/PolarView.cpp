@@ -122,9 +122,9 @@ PolarView::PolarView(WaterfallView &view, QWidget *parent)
     canvas()->setCursor(Qt::CrossCursor);
     setAccessibleName(tr("%1, from above").arg(view.accessibleName()));
     connect(&view, &WaterfallView::rangeChanged, this, &PolarView::followColours);
-    connect(&view, &WaterfallView::colourMapChanged, this, &PolarView::followColours);
+    connect(&view.display(), &PictureDisplay::coloursChanged, this, &PolarView::followColours);
     connect(&view, &WaterfallView::thresholdChanged, this, &PolarView::followColours);
-    connect(&view, &WaterfallView::layersChanged, this, &PolarView::followColours);
+    connect(&view.display(), &PictureDisplay::layersChanged, this, &PolarView::followColours);
     connect(view.viewport(), &Viewport::spanChanged, this, &PolarView::followSpan);
     restyle();
 }
@@ -154,13 +154,13 @@ void PolarView::restyle()
 
 void PolarView::followColours()
 {
-    const auto layers = m_view.layers();
-    m_raster->setColours(m_view.colourMap(), m_view.range(), m_view.threshold());
-    m_raster->setContour(layers.testFlag(WaterfallView::ThresholdLayer) ? m_view.threshold() : std::nullopt,
+    const PictureDisplay &display = m_view.display();
+    m_raster->setColours(display.colourMap(), m_view.range(), m_view.threshold());
+    m_raster->setContour(display.shows(PictureDisplay::ThresholdLayer) ? m_view.threshold() : std::nullopt,
                          Theme::colours(*this).contour.rgb());
-    m_overlay->hasTracks = layers.testFlag(WaterfallView::TrackLayer);
-    m_overlay->hasTruth = layers.testFlag(WaterfallView::TruthLayer);
-    m_overlay->hasEvents = layers.testFlag(WaterfallView::EventLayer);
+    m_overlay->hasTracks = display.shows(PictureDisplay::TrackLayer);
+    m_overlay->hasTruth = display.shows(PictureDisplay::TruthLayer);
+    m_overlay->hasEvents = display.shows(PictureDisplay::EventLayer);
     replot();
 }
 

@@ -71,14 +71,14 @@ void ColourBar::attach(WaterfallView *view)
     };
     connect(view, &WaterfallView::histogramChanged, this, follow);
     connect(view, &WaterfallView::rangeChanged, this, &ColourBar::setRange);
-    connect(view, &WaterfallView::colourMapChanged, this,
-            [this](const QString &name) { setColourMap(ColourMap::named(name)); });
+    connect(&view->display(), &PictureDisplay::coloursChanged, this,
+            [this, view] { setColourMap(view->display().colourMap()); });
     connect(view, &WaterfallView::thresholdChanged, this,
             [this](double nats) { setMarker(std::isnan(nats) ? std::nullopt : std::optional(nats)); });
     connect(this, &ColourBar::rangeRequested, view, &WaterfallView::setRange);
     connect(this, &ColourBar::automaticRequested, view, &WaterfallView::setAutomaticRange);
     setAccessibleName(tr("Colour range of %1").arg(view->accessibleName()));
-    setColourMap(view->colourMap());
+    setColourMap(view->display().colourMap());
     setMarker(view->threshold());
     setRange(view->range().low, view->range().high);
     follow();

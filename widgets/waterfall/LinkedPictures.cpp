@@ -20,9 +20,9 @@ namespace {
 
 } // namespace
 
-LinkedPictures::LinkedPictures(Viewport &viewport, QWidget *parent)
-    : QWidget(parent), m_viewport(viewport), m_holder(new QWidget), m_line(new QBoxLayout(QBoxLayout::LeftToRight)),
-      m_bar(new ColourBar), m_stack(new TimeStack(this)), m_colourMap(ColourMap::defaultName())
+LinkedPictures::LinkedPictures(Viewport &viewport, PictureDisplay &display, TimeDirection &direction, QWidget *parent)
+    : QWidget(parent), m_viewport(viewport), m_display(display), m_direction(direction), m_holder(new QWidget),
+      m_line(new QBoxLayout(QBoxLayout::LeftToRight)), m_bar(new ColourBar), m_stack(new TimeStack(this))
 {
     m_holder->setLayout(m_line);
     m_line->setContentsMargins(0, 0, 0, 0);
@@ -37,7 +37,6 @@ LinkedPictures::LinkedPictures(Viewport &viewport, QWidget *parent)
     layout->setSpacing(0);
     layout->addWidget(area, 1);
     layout->addWidget(m_bar);
-    m_bar->setColourMap(ColourMap::named(m_colourMap));
     m_bar->setUnit(tr("dB"));
     m_bar->hide();
     connect(m_bar, &ColourBar::rangeRequested, this, [this](double low, double high) {
@@ -45,6 +44,11 @@ LinkedPictures::LinkedPictures(Viewport &viewport, QWidget *parent)
         spread({low, high});
     });
     connect(m_bar, &ColourBar::automaticRequested, this, &LinkedPictures::spreadAutomaticRange);
+    const auto followColours = [this] { m_bar->setColourMap(m_display.colourMap()); };
+    connect(&display, &PictureDisplay::coloursChanged, this, followColours);
+    connect(&direction, &TimeDirection::changed, this, &LinkedPictures::arrange);
+    followColours();
+    arrange();
 }
 
 void LinkedPictures::setCount(int count)
@@ -62,13 +66,11 @@ void LinkedPictures::setCount(int count)
 
 void LinkedPictures::addView()
 {
-    auto *view = new WaterfallView(QString());
+    auto *view = new WaterfallView(QString(), &m_display, &m_direction);
     const int place = int(std::ssize(m_views));
     m_views.push_back(view);
     view->setMinimumSize(leastPicture);
     view->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
-    view->setOrientation(m_orientation);
-    view->setColourMap(m_colourMap);
     view->setViewport(&m_viewport);
     view->setProperty("place", place);
     view->installEventFilter(this);
@@ -76,34 +78,15 @@ void LinkedPictures::addView()
     view->canvas()->installEventFilter(this);
     m_line->addWidget(view, 1);
     m_stack->add(*view, *view);
-    connect(view, &WaterfallView::orientationChanged, this, &LinkedPictures::setOrientation);
-    connect(view, &WaterfallView::colourMapChanged, this, &LinkedPictures::setColourMap);
     connect(view, &WaterfallView::rangeChanged, this, [this, view] { followRange(*view); });
     connect(view, &WaterfallView::histogramChanged, this, &LinkedPictures::followHistogram);
 }
 
-void LinkedPictures::setOrientation(WaterfallPicture::Orientation orientation)
+void LinkedPictures::arrange()
 {
-    if (orientation == m_orientation)
-        return;
-    m_orientation = orientation;
-    const bool isStacked = orientation == WaterfallPicture::Orientation::LeftToRight;
+    const bool isStacked = !m_direction.isVertical();
     m_line->setDirection(isStacked ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
-    for (WaterfallView *view : m_views)
-        view->setOrientation(orientation);
     m_stack->setOn(isStacked);
-    emit orientationChanged(orientation);
-}
-
-void LinkedPictures::setColourMap(const QString &name)
-{
-    if (name == m_colourMap)
-        return;
-    m_colourMap = name;
-    for (WaterfallView *view : m_views)
-        view->setColourMap(name);
-    m_bar->setColourMap(ColourMap::named(name));
-    emit colourMapChanged(name);
 }
 
 // ---- the range of colours ------------------------------------------------------------------------------------------

@@ -23,13 +23,19 @@ namespace {
 
 } // namespace
 
-MarkedWaterfall::MarkedWaterfall(const QString &heading, QWidget *parent)
-    : WaterfallPicture(heading, parent), m_overlay(new OverlayItem), m_grid(new QwtPlotGrid)
+MarkedWaterfall::MarkedWaterfall(const QString &heading, PictureDisplay *shown, TimeDirection *direction)
+    : WaterfallPicture(heading, shown, direction), m_overlay(new OverlayItem), m_grid(new QwtPlotGrid)
 {
     m_grid->setZ(5.0);
     m_grid->setPen(Theme::colours(Theme::Kind::Dark).grid, 1.0);
     m_grid->attach(this);
     m_overlay->attach(this);
+    connect(&display(), &PictureDisplay::layersChanged, this, &MarkedWaterfall::updateContent);
+    connect(&display(), &PictureDisplay::linesChanged, this, &MarkedWaterfall::updateContent);
+    connect(&display(), &PictureDisplay::measuringChanged, this, [this] {
+        if (!display().isMeasuring() && viewport())
+            viewport()->clearSelection();
+    });
     followCursor();
 }
 
@@ -146,15 +152,6 @@ void MarkedWaterfall::setAnnotations(const std::vector<Annotation> &boxes)
     replot();
 }
 
-void MarkedWaterfall::setLayer(Layer layer, bool isOn)
-{
-    if (m_layers.testFlag(layer) == isOn)
-        return;
-    m_layers.setFlag(layer, isOn);
-    updateContent();
-    emit layersChanged();
-}
-
 void MarkedWaterfall::updateMarks()
 {
     const double frame = picture() ? picture()->time().step : 0.0;
@@ -168,21 +165,22 @@ void MarkedWaterfall::updateContent()
     overlay.colours = Theme::colours(*this);
     overlay.isTimeVertical = isTimeVertical();
     overlay.setVisible(picture() != nullptr);
-    m_grid->setVisible(picture() && m_layers.testFlag(GridLayer));
-    raster().setContour(m_layers.testFlag(ThresholdLayer) ? threshold() : std::nullopt, overlay.colours.contour.rgb());
+    m_grid->setVisible(picture() && display().shows(PictureDisplay::GridLayer));
+    raster().setContour(display().shows(PictureDisplay::ThresholdLayer) ? threshold() : std::nullopt,
+                        overlay.colours.contour.rgb());
 
-    overlay.hasEvents = m_layers.testFlag(EventLayer);
-    overlay.hasTracks = m_layers.testFlag(TrackLayer);
-    overlay.hasTruth = m_layers.testFlag(TruthLayer);
+    overlay.hasEvents = display().shows(PictureDisplay::EventLayer);
+    overlay.hasTracks = display().shows(PictureDisplay::TrackLayer);
+    overlay.hasTruth = display().shows(PictureDisplay::TruthLayer);
     overlay.selectedEvent = m_selectedEvent;
-    overlay.cursor = viewport() && m_layers.testFlag(CursorLayer) ? viewport()->cursor() : std::nullopt;
+    overlay.cursor = viewport() && display().shows(PictureDisplay::CursorLayer) ? viewport()->cursor() : std::nullopt;
     overlay.selection = viewport() ? viewport()->selection() : std::nullopt;
     overlay.selectionText = selectionText();
     overlay.sidebands = sidebands();
     overlay.sidebandText = sidebandText();
     overlay.cursorNote = m_cursorNote;
     overlay.harmonicsHz.clear();
-    if (m_hasHarmonics && frequencyAxis().unit == "Hz" && viewport() && viewport()->cursor())
+    if (display().hasHarmonics() && frequencyAxis().unit == "Hz" && viewport() && viewport()->cursor())
         for (int i = 1; i <= harmonicCount; ++i)
             overlay.harmonicsHz.push_back(i * viewport()->cursor()->hz);
     WaterfallPicture::updateContent();
@@ -226,16 +224,6 @@ void MarkedWaterfall::moveCursorToPeak()
         viewport()->setCursor(*peak);
 }
 
-void MarkedWaterfall::setMeasuring(bool isOn)
-{
-    if (m_isMeasuring == isOn)
-        return;
-    m_isMeasuring = isOn;
-    if (!isOn && viewport())
-        viewport()->clearSelection();
-    emit measuringChanged(isOn);
-}
-
 QString MarkedWaterfall::selectionText() const
 {
     if (!viewport() || !viewport()->selection())
@@ -258,42 +246,24 @@ void MarkedWaterfall::setSelectionNote(const QString &note)
     updateContent();
 }
 
-void MarkedWaterfall::setHarmonics(bool isOn)
-{
-    if (m_hasHarmonics == isOn)
-        return;
-    m_hasHarmonics = isOn;
-    updateContent();
-    emit harmonicsChanged(isOn);
-}
-
 std::optional<Sidebands> MarkedWaterfall::sidebands() const
 {
-    if (m_sidebandHz <= 0.0 || frequencyAxis().unit != "Hz" || !viewport() || !viewport()->cursor())
+    if (display().sidebandSpacing() <= 0.0 || frequencyAxis().unit != "Hz" || !viewport() || !viewport()->cursor())
         return {};
-    return Sidebands{viewport()->cursor()->hz, m_sidebandHz};
+    return Sidebands{viewport()->cursor()->hz, display().sidebandSpacing()};
 }
 
 void MarkedWaterfall::setSidebands(bool isOn)
 {
     if (!isOn || !picture() || !viewport() || frequencyAxis().unit != "Hz")
-        return setSidebandSpacing(0.0);
-    if (m_sidebandHz > 0.0)
+        return display().setSidebandSpacing(0.0);
+    if (display().sidebandSpacing() > 0.0)
         return;
     constexpr double share = 1.0 / 14.0; // so that five fit on either side of a centred carrier
     if (!viewport()->cursor())
         viewport()->setCursor({viewport()->time().middle(), viewport()->frequency().middle()});
     const double bins = std::max(std::round(share * viewport()->frequency().width() / frequencyAxis().step), 1.0);
-    setSidebandSpacing(bins * frequencyAxis().step);
-}
-
-void MarkedWaterfall::setSidebandSpacing(double hz)
-{
-    if (hz == m_sidebandHz)
-        return;
-    m_sidebandHz = hz;
-    updateContent();
-    emit sidebandsChanged(hz);
+    display().setSidebandSpacing(bins * frequencyAxis().step);
 }
 
 QString MarkedWaterfall::sidebandText() const

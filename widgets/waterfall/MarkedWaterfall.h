@@ -20,28 +20,14 @@ class MarkedWaterfall : public WaterfallPicture
     Q_OBJECT
 
 public:
-    enum Layer {
-        EventLayer = 1,
-        TrackLayer = 2,
-        TruthLayer = 4,
-        ThresholdLayer = 8, ///< cells above the threshold are outlined
-        GridLayer = 16,
-        CursorLayer = 32
-    };
-    Q_DECLARE_FLAGS(Layers, Layer)
-
-    explicit MarkedWaterfall(const QString &heading, QWidget *parent = nullptr);
+    explicit MarkedWaterfall(const QString &heading, PictureDisplay *display = nullptr,
+                             TimeDirection *direction = nullptr);
 
     void setViewport(Viewport *viewport) override;
     void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency) override;
     void setNextPicture(std::shared_ptr<const PeakPyramid> picture) override;
 
-    Layers layers() const { return m_layers; }
     int selectedEvent() const { return m_selectedEvent; }
-    bool isMeasuring() const { return m_isMeasuring; }
-    bool hasHarmonics() const { return m_hasHarmonics; }
-    /// Spacing of the sidebands around the cursor's frequency, Hz; 0: none are shown.
-    double sidebandSpacing() const { return m_sidebandHz; }
     std::optional<Sidebands> sidebands() const;       ///< as shown
     int eventAt(const QPointF &canvasPosition) const; ///< 0: none
 
@@ -61,10 +47,6 @@ public slots:
     void setTracksPictured(bool arePictured);
     void setFaintEvents(const std::vector<int> &ids); ///< rejected ones
     void setAnnotations(const std::vector<faintline::Annotation> &boxes);
-    void setLayer(faintline::MarkedWaterfall::Layer layer, bool isOn);
-    void setMeasuring(bool isOn);
-    void setHarmonics(bool isOn);       ///< lines at the multiples of the cursor's frequency
-    void setSidebandSpacing(double hz); ///< lines beside the cursor's frequency; 0: none
     void setSidebands(bool isOn); ///< uses a spacing that suits the visible part; places a cursor if there is none
     void setCursorNote(const QString &note);    ///< additional text for the cursor, in a corner
     void setSelectionNote(const QString &note); ///< additional text for the measured box, until that changes
@@ -72,10 +54,6 @@ public slots:
     void setRubber(const std::optional<faintline::Viewport::Box> &box); ///< shown while a box is dragged
 
 signals:
-    void layersChanged();
-    void measuringChanged(bool isOn);
-    void harmonicsChanged(bool isOn);
-    void sidebandsChanged(double spacingHz); ///< 0: none
     /// The pointer is over a cell; `value` in dB or nat.
     void hovered(double seconds, double hz, double value);
     void hoverEnded();
@@ -95,16 +73,10 @@ private:
 
     OverlayItem *m_overlay;
     QwtPlotGrid *m_grid;
-    Layers m_layers = Layers(EventLayer | TrackLayer | TruthLayer | ThresholdLayer | CursorLayer);
     std::vector<Event> m_events;
     int m_selectedEvent = 0;
-    bool m_isMeasuring = false;
-    bool m_hasHarmonics = false;
-    double m_sidebandHz = 0.0;
     QString m_cursorNote;
     QString m_selectionNote;
 };
-
-Q_DECLARE_OPERATORS_FOR_FLAGS(MarkedWaterfall::Layers)
 
 } // namespace faintline

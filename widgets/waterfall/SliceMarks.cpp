@@ -34,7 +34,7 @@ SliceMarks::SliceMarks(WaterfallView &view)
     : QObject(&view), m_view(view), m_rings(makeMarks(view, QwtSymbol::Ellipse, 15)),
       m_diamonds(makeMarks(view, QwtSymbol::Diamond, 9))
 {
-    connect(&view, &WaterfallView::orientationChanged, this, &SliceMarks::place);
+    connect(&view.direction(), &TimeDirection::changed, this, &SliceMarks::place);
 }
 
 void SliceMarks::set(const std::optional<Best> &best, std::vector<Viewport::Point> paths)
@@ -46,7 +46,7 @@ void SliceMarks::set(const std::optional<Best> &best, std::vector<Viewport::Poin
 
 void SliceMarks::place()
 {
-    const bool isUpright = m_view.orientation() != WaterfallView::Orientation::LeftToRight;
+    const bool isUpright = m_view.isTimeVertical();
     const auto at = [&](double row, double column) { return isUpright ? QPointF(column, row) : QPointF(row, column); };
     QVector<QPointF> ring;
     if (m_best)

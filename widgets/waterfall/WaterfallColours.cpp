@@ -39,7 +39,7 @@ void WaterfallPicture::setPlain(bool isPlain)
 
 void WaterfallPicture::applyRange(const Span &range)
 {
-    m_raster->setColours(*m_colourMap, range, m_threshold);
+    m_raster->setColours(m_display->colourMap(), range, m_threshold);
     if (range == m_levels.range())
         return;
     m_levels.setRange(range);
@@ -77,20 +77,10 @@ void WaterfallPicture::stepWhite(int steps)
     setRange(range().low, std::max(range().high + steps * step, range().low + step));
 }
 
-void WaterfallPicture::setColourMap(const QString &name)
+void WaterfallPicture::followColours()
 {
-    const ColourMap &map = ColourMap::named(name);
-    if (&map == m_colourMap)
-        return;
-    m_colourMap = &map;
-    m_raster->setColours(map, range(), m_threshold);
+    m_raster->setColours(m_display->colourMap(), range(), m_threshold);
     replot();
-    emit colourMapChanged(map.name());
-}
-
-void WaterfallPicture::cycleColourMap()
-{
-    setColourMap(ColourMap::next(m_colourMap->name()));
 }
 
 } // namespace faintline

@@ -76,7 +76,7 @@ void WaterfallMouse::press(const QMouseEvent &event)
     m_drag = event.button() == Qt::MiddleButton              ? Drag::Pan
              : event.modifiers().testFlag(Qt::ShiftModifier) ? Drag::Zoom
              : m_order != 0                                  ? Drag::Sideband
-             : m_view.isMeasuring()                          ? Drag::Measure
+             : m_view.display().isMeasuring()                ? Drag::Measure
                                                              : Drag::Press;
     if (m_drag == Drag::Measure)
         m_origin = pointOf(event);
@@ -144,7 +144,7 @@ void WaterfallMouse::pan(const QPointF &position)
 
 void WaterfallMouse::dragSideband(const QMouseEvent &event)
 {
-    m_view.setSidebandSpacing(
+    m_view.display().setSidebandSpacing(
         std::max(m_view.sidebands()->spacingFor(m_order, pointOf(event).hz), m_view.frequencyAxis().step));
 }
 
@@ -182,7 +182,7 @@ void WaterfallMouse::scroll(Qt::Orientation direction, double notches)
     const bool isTime = (direction == Qt::Vertical) == m_view.isTimeVertical();
     // Turning the wheel away from the user moves up or left; up is later with the newest on top, and higher in
     // frequency.
-    const bool isNewestOnTop = m_view.orientation() == MarkedWaterfall::Orientation::NewestOnTop;
+    const bool isNewestOnTop = m_view.direction().orientation() == MarkedWaterfall::Orientation::NewestOnTop;
     const bool isUpward = direction == Qt::Vertical && (!isTime || isNewestOnTop);
     const double share = notches * scrollShare * (isUpward ? 1.0 : -1.0);
     m_view.viewport()->scroll(isTime ? share : 0.0, isTime ? 0.0 : share);

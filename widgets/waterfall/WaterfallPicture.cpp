@@ -34,15 +34,18 @@ namespace {
 
 } // namespace
 
-WaterfallPicture::WaterfallPicture(const QString &heading, QWidget *parent)
-    : ThemedPlot(parent), m_heading(heading), m_raster(new RasterItem), m_sentence(new CanvasSentence),
-      m_colourMap(&ColourMap::named(ColourMap::defaultName()))
+WaterfallPicture::WaterfallPicture(const QString &heading, PictureDisplay *display, TimeDirection *direction)
+    : m_heading(heading), m_raster(new RasterItem), m_sentence(new CanvasSentence),
+      m_display(display ? display : new PictureDisplay(this)),
+      m_direction(direction ? direction : new TimeDirection(Orientation::NewestOnTop, this))
 {
     m_sentence->text = tr("Open a recording or choose a scenario to start.");
     m_sentence->pixelSize = 14;
     m_sentence->attach(this);
     m_raster->attach(this);
     setAccessibleName(tr("%1 waterfall").arg(heading));
+    connect(m_display, &PictureDisplay::coloursChanged, this, &WaterfallPicture::followColours);
+    connect(m_direction, &TimeDirection::changed, this, &WaterfallPicture::restyle);
     restyle();
 }
 
@@ -257,7 +260,7 @@ void WaterfallPicture::setThreshold(double nats)
     if (threshold == m_threshold)
         return;
     m_threshold = threshold;
-    m_raster->setColours(*m_colourMap, range(), m_threshold);
+    m_raster->setColours(m_display->colourMap(), range(), m_threshold);
     updateContent();
     emit thresholdChanged(nats);
 }
@@ -356,7 +359,7 @@ void WaterfallPicture::followSpan()
     const int timeTicks = std::clamp(along / timeSpacing, 1, 12);
     const QwtScaleDiv timeDiv =
         m_timeDraw ? timeScaleDiv(time, timeTicks, m_startUnixSeconds.value_or(0.0)) : linearScaleDiv(time, timeTicks);
-    setAxisScaleDiv(timeAxis(), m_orientation == Orientation::OldestOnTop ? timeDiv.inverted() : timeDiv);
+    setAxisScaleDiv(timeAxis(), m_direction->orientation() == Orientation::OldestOnTop ? timeDiv.inverted() : timeDiv);
     const int hzSpacing = !isTimeVertical() ? 42 : originHz() != 0.0 ? 110 : 60;
     const int hzTicks = std::clamp(across / hzSpacing, 1, 12);
     setAxisScaleDiv(hzAxis(),
@@ -369,20 +372,6 @@ void WaterfallPicture::followSpan()
 
     countHistogram();
     replot();
-}
-
-void WaterfallPicture::setOrientation(Orientation orientation)
-{
-    if (orientation == m_orientation)
-        return;
-    m_orientation = orientation;
-    restyle();
-    emit orientationChanged(orientation);
-}
-
-void WaterfallPicture::cycleOrientation()
-{
-    setOrientation(static_cast<Orientation>((int(m_orientation) + 1) % 3));
 }
 
 } // namespace faintline

@@ -3,9 +3,10 @@
 #include "base/Axis.h"
 #include "frames/PeakPyramid.h"
 #include "widgets/base/ThemedPlot.h"
+#include "widgets/base/TimeDirection.h"
 #include "widgets/base/Viewport.h"
-#include "widgets/plot/ColourMap.h"
 #include "widgets/waterfall/ColourLevels.h"
+#include "widgets/waterfall/PictureDisplay.h"
 
 #include <QPointer>
 
@@ -31,11 +32,15 @@ class WaterfallPicture : public ThemedPlot
     Q_OBJECT
 
 public:
-    enum class Orientation { NewestOnTop, OldestOnTop, LeftToRight };
-    Q_ENUM(Orientation)
+    using Orientation = TimeDirection::Orientation;
 
-    /// `heading`: name of the picture, "Input" or "Statistic".
-    explicit WaterfallPicture(const QString &heading, QWidget *parent = nullptr);
+    /// `heading`: name of the picture, "Input" or "Statistic". `display` and `direction`: shared with other pictures, not
+    /// owned; null: the picture has its own.
+    explicit WaterfallPicture(const QString &heading, PictureDisplay *display = nullptr,
+                              TimeDirection *direction = nullptr);
+
+    PictureDisplay &display() const { return *m_display; }
+    TimeDirection &direction() const { return *m_direction; }
 
     /// Shared with other views; not owned. The caller sets its extents (see `extents`).
     virtual void setViewport(Viewport *viewport);
@@ -69,8 +74,6 @@ public:
     /// Sentence on the canvas while there is no picture.
     void setEmptySentence(const QString &sentence);
 
-    Orientation orientation() const { return m_orientation; }
-    const ColourMap &colourMap() const { return *m_colourMap; }
     /// Values drawn in the map's first and last colour: dB or nat.
     const Span &range() const { return m_levels.range(); }
     /// Whether the picture shows the level itself, not that over the noise.
@@ -99,7 +102,7 @@ public:
     Viewport::Point pointAt(const QPointF &canvasPosition) const;
     QPointF positionOf(const Viewport::Point &point) const;
     bool isLogarithmic() const { return m_viewport && m_viewport->isLogarithmic(); } ///< the frequency axis
-    bool isTimeVertical() const { return m_orientation != Orientation::LeftToRight; }
+    bool isTimeVertical() const { return m_direction->isVertical(); }
     QwtAxisId timeAxis() const { return isTimeVertical() ? QwtAxis::YLeft : QwtAxis::XBottom; }
     QwtAxisId hzAxis() const { return isTimeVertical() ? QwtAxis::XBottom : QwtAxis::YLeft; }
 
@@ -107,10 +110,6 @@ public:
     QSize minimumSizeHint() const override { return {110, 100}; }
 
 public slots:
-    void setOrientation(faintline::WaterfallPicture::Orientation orientation);
-    void cycleOrientation();
-    void setColourMap(const QString &name);
-    void cycleColourMap();
     void setRange(double low, double high);
     void setAutomaticRange();
     /// Moves the black or white level by steps of 1 dB, or of ½ nat or a hundredth of the range.
@@ -120,8 +119,6 @@ public slots:
     void setThreshold(double nats);
 
 signals:
-    void orientationChanged(faintline::WaterfallPicture::Orientation orientation);
-    void colourMapChanged(const QString &name);
     void rangeChanged(double low, double high);
     void histogramChanged();
     void shownPictureChanged();
@@ -144,6 +141,7 @@ private:
     void choosePicture(bool isOther = true);
     void countHistogram();
     void applyRange(const Span &range);
+    void followColours();
     double levelStep() const;
 
     QString m_heading;
@@ -160,8 +158,8 @@ private:
     CanvasSentence *m_sentence;
     TimeScaleDraw *m_timeDraw = nullptr;     ///< owned by the plot; null if the picture's own axis is not time,
     NumberScaleDraw *m_numberDraw = nullptr; ///< which then uses this one
-    const ColourMap *m_colourMap;
-    Orientation m_orientation = Orientation::NewestOnTop;
+    PictureDisplay *m_display;
+    TimeDirection *m_direction;
     ColourLevels m_levels;
     bool m_isPlain = false;
     std::optional<double> m_threshold;

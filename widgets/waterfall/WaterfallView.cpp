@@ -10,8 +10,8 @@
 
 namespace faintline {
 
-WaterfallView::WaterfallView(const QString &heading, QWidget *parent)
-    : MarkedWaterfall(heading, parent), m_mouse(std::make_unique<WaterfallMouse>(*this))
+WaterfallView::WaterfallView(const QString &heading, PictureDisplay *display, TimeDirection *direction)
+    : MarkedWaterfall(heading, display, direction), m_mouse(std::make_unique<WaterfallMouse>(*this))
 {
 }
 

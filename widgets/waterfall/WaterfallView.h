@@ -10,8 +10,8 @@ namespace faintline {
 
 class WaterfallMouse;
 
-/// A marked picture with mouse and keyboard control. The view changes its own display (zoom, colours, orientation) and
-/// reports it with signals `…Changed`; changes of the document are requested with signals `…Requested`.
+/// A marked picture with mouse and keyboard control. Gestures change its viewport, display and direction, which other
+/// pictures may share; changes of the document are requested with signals `…Requested`.
 ///
 /// WaterfallMouse handles buttons, waterfallCommands keys and the context menu.
 class WaterfallView : public MarkedWaterfall
@@ -19,7 +19,8 @@ class WaterfallView : public MarkedWaterfall
     Q_OBJECT
 
 public:
-    explicit WaterfallView(const QString &heading, QWidget *parent = nullptr);
+    explicit WaterfallView(const QString &heading, PictureDisplay *display = nullptr,
+                           TimeDirection *direction = nullptr);
     ~WaterfallView() override;
 
 signals:

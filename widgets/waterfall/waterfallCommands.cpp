@@ -22,7 +22,7 @@ namespace {
         Viewport &viewport = *view.viewport();
         Viewport::Point point =
             viewport.cursor().value_or(Viewport::Point{viewport.time().middle(), viewport.frequency().middle()});
-        const bool isNewestOnTop = view.orientation() == MarkedWaterfall::Orientation::NewestOnTop;
+        const bool isNewestOnTop = view.direction().orientation() == MarkedWaterfall::Orientation::NewestOnTop;
         const int timeSteps = view.isTimeVertical() ? (isNewestOnTop ? up : -up) : right;
         const int hzSteps = view.isTimeVertical() ? right : up;
         // From cell centre to cell centre, so that every key press selects another cell.
@@ -42,9 +42,9 @@ namespace {
 
     void clearMarks(MarkedWaterfall &view)
     {
-        view.setMeasuring(false);
-        view.setHarmonics(false);
-        view.setSidebandSpacing(0.0);
+        view.display().setMeasuring(false);
+        view.display().setHarmonics(false);
+        view.display().setSidebandSpacing(0.0);
         view.viewport()->clearSelection();
         view.viewport()->clearCursor();
     }
@@ -69,9 +69,10 @@ bool pressKey(MarkedWaterfall &view, const QKeyEvent &event)
         return false;
     const int cells = event.modifiers().testFlag(Qt::ControlModifier) ? 10 : 1;
     const double bin = view.frequencyAxis().step;
+    PictureDisplay &display = view.display();
     const KeyAction spacingKeys[] = {
-        {Qt::Key_Left, [&] { view.setSidebandSpacing(std::max(view.sidebandSpacing() - bin, bin)); }},
-        {Qt::Key_Right, [&] { view.setSidebandSpacing(view.sidebandSpacing() + bin); }},
+        {Qt::Key_Left, [&] { display.setSidebandSpacing(std::max(display.sidebandSpacing() - bin, bin)); }},
+        {Qt::Key_Right, [&] { display.setSidebandSpacing(display.sidebandSpacing() + bin); }},
     };
     const KeyAction cursorKeys[] = {
         {Qt::Key_Left, [&] { moveCursor(view, -1, 0, cells); }},
@@ -82,18 +83,18 @@ bool pressKey(MarkedWaterfall &view, const QKeyEvent &event)
     const KeyAction plainKeys[] = {
         {Qt::Key_Backspace, [&] { view.viewport()->zoomBack(); }},
         {Qt::Key_0, [&] { view.viewport()->showAll(); }},
-        {Qt::Key_O, [&] { view.cycleOrientation(); }},
+        {Qt::Key_O, [&] { view.direction().cycle(); }},
         {Qt::Key_BracketLeft, [&] { view.stepBlack(-1); }},
         {Qt::Key_BracketRight, [&] { view.stepBlack(1); }},
         {Qt::Key_BraceLeft, [&] { view.stepWhite(-1); }},
         {Qt::Key_BraceRight, [&] { view.stepWhite(1); }},
         {Qt::Key_A, [&] { view.setAutomaticRange(); }},
-        {Qt::Key_C, [&] { view.cycleColourMap(); }},
+        {Qt::Key_C, [&] { display.cycleColourMap(); }},
         {Qt::Key_Comma, [&] { emit view.thresholdStepRequested(-1); }},
         {Qt::Key_Period, [&] { emit view.thresholdStepRequested(1); }},
-        {Qt::Key_M, [&] { view.setMeasuring(!view.isMeasuring()); }},
-        {Qt::Key_H, [&] { view.setHarmonics(!view.hasHarmonics()); }},
-        {Qt::Key_I, [&] { view.setSidebands(view.sidebandSpacing() == 0.0); }},
+        {Qt::Key_M, [&] { display.setMeasuring(!display.isMeasuring()); }},
+        {Qt::Key_H, [&] { display.setHarmonics(!display.hasHarmonics()); }},
+        {Qt::Key_I, [&] { view.setSidebands(display.sidebandSpacing() == 0.0); }},
         {Qt::Key_K, [&] { view.moveCursorToPeak(); }},
         {Qt::Key_Escape, [&] { clearMarks(view); }},
     };
@@ -166,40 +167,39 @@ namespace {
                                                         {Orientation::OldestOnTop, tr("Oldest on top")},
                                                         {Orientation::LeftToRight, tr("Left to right")}};
         for (const auto &[way, text] : ways)
-            group->addAction(Commands(*view).check(menu, text, QString(), view->orientation() == way,
-                                                   [view, way = way] { view->setOrientation(way); }));
+            group->addAction(Commands(*view).check(menu, text, QString(), view->direction().orientation() == way,
+                                                   [view, way = way] { view->direction().set(way); }));
     }
 
     void addColours(QMenu &menu, MarkedWaterfall *view)
     {
         auto *group = new QActionGroup(&menu);
         for (const QString &name : ColourMap::names())
-            group->addAction(Commands(*view).check(menu, name, QString(), name == view->colourMap().name(),
-                                                   [view, name] { view->setColourMap(name); }));
+            group->addAction(Commands(*view).check(menu, name, QString(), name == view->display().colourMap().name(),
+                                                   [view, name] { view->display().setColourMap(name); }));
     }
 
     void addLayers(QMenu &menu, MarkedWaterfall *view)
     {
-        using View = MarkedWaterfall;
-        const std::pair<View::Layer, QString> rows[] = {
-            {View::EventLayer, tr("Events")}, {View::TrackLayer, tr("Tracks")},
-            {View::TruthLayer, tr("Truth")},  {View::ThresholdLayer, tr("Threshold contour")},
-            {View::GridLayer, tr("Grid")},    {View::CursorLayer, tr("Cursor")}};
+        const std::pair<PictureDisplay::Layer, QString> rows[] = {
+            {PictureDisplay::EventLayer, tr("Events")}, {PictureDisplay::TrackLayer, tr("Tracks")},
+            {PictureDisplay::TruthLayer, tr("Truth")},  {PictureDisplay::ThresholdLayer, tr("Threshold contour")},
+            {PictureDisplay::GridLayer, tr("Grid")},    {PictureDisplay::CursorLayer, tr("Cursor")}};
         for (const auto &[layer, text] : rows)
-            Commands(*view).check(menu, text, QString(), view->layers().testFlag(layer),
-                                  [view, layer = layer](bool isOn) { view->setLayer(layer, isOn); });
+            Commands(*view).check(menu, text, QString(), view->display().shows(layer),
+                                  [view, layer = layer](bool isOn) { view->display().setLayer(layer, isOn); });
     }
 
     void addMeasures(QMenu &menu, MarkedWaterfall *view)
     {
         const Commands commands(*view);
-        commands.check(menu, tr("Measure a box"), QStringLiteral("M"), view->isMeasuring(),
-                       [view](bool isOn) { view->setMeasuring(isOn); });
+        commands.check(menu, tr("Measure a box"), QStringLiteral("M"), view->display().isMeasuring(),
+                       [view](bool isOn) { view->display().setMeasuring(isOn); });
         if (view->frequencyAxis().unit == "Hz") {
-            commands.check(menu, tr("Harmonics of the cursor"), QStringLiteral("H"), view->hasHarmonics(),
-                           [view](bool isOn) { view->setHarmonics(isOn); });
-            commands.check(menu, tr("Sidebands of the cursor"), QStringLiteral("I"), view->sidebandSpacing() > 0.0,
-                           [view](bool isOn) { view->setSidebands(isOn); });
+            commands.check(menu, tr("Harmonics of the cursor"), QStringLiteral("H"), view->display().hasHarmonics(),
+                           [view](bool isOn) { view->display().setHarmonics(isOn); });
+            commands.check(menu, tr("Sidebands of the cursor"), QStringLiteral("I"),
+                           view->display().sidebandSpacing() > 0.0, [view](bool isOn) { view->setSidebands(isOn); });
         }
         commands.add(menu, tr("Cursor to the peak nearby"), QStringLiteral("K"), [view] { view->moveCursorToPeak(); })
             ->setEnabled(view->viewport() && view->viewport()->cursor());
