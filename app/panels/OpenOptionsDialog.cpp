@@ -1,14 +1,13 @@
 #include "app/panels/OpenOptionsDialog.h"
 
 #include "app/base/filePath.h"
+#include "app/panels/rawFields.h"
 #include "signal/formats/RawRecording.h"
 #include "signal/formats/SampleType.h"
-#include "signal/openFields.h"
 #include "signal/openRecording.h"
 #include "widgets/base/labelText.h"
 
 #include <QDialogButtonBox>
-#include <QFileInfo>
 #include <QLabel>
 #include <QPushButton>
 #include <QVBoxLayout>
@@ -30,11 +29,16 @@ namespace {
         return options;
     }
 
+    bool takesPairs(const OpenOptions &options)
+    {
+        return !parseSampleType(options.rawType, "type").isComplex && options.rawChannels % 2 == 0;
+    }
+
 } // namespace
 
 OpenOptionsDialog::OpenOptionsDialog(const QString &path, QWidget *parent)
     : QDialog(parent), m_fileBytes(fileSize(path)),
-      m_form(new FieldForm<OpenOptions>(tr("Format"), openFields(), suggested(path))), m_length(plainLabel()),
+      m_form(new FieldForm<OpenOptions>(tr("Format"), rawFields(), suggested(path))), m_length(plainLabel()),
       m_buttons(new QDialogButtonBox(QDialogButtonBox::Open | QDialogButtonBox::Cancel))
 {
     setWindowTitle(tr("Raw samples"));
@@ -46,18 +50,28 @@ OpenOptionsDialog::OpenOptionsDialog(const QString &path, QWidget *parent)
     layout->addWidget(m_form);
     layout->addWidget(m_length);
     layout->addWidget(m_buttons);
+    m_form->setTracking(true);
     connect(m_form, &FieldFormBase::edited, this, &OpenOptionsDialog::showLength);
     showLength();
 }
 
+OpenOptions OpenOptionsDialog::options() const
+{
+    OpenOptions options = m_form->value();
+    options.iq = options.iq && takesPairs(options);
+    return options;
+}
+
 void OpenOptionsDialog::showLength()
 {
-    const SampleType type = parseSampleType(options().rawType, "type");
-    const auto samples =
-        double((m_fileBytes - options().rawHeaderBytes) / (type.sampleBytes() * options().rawChannels));
-    m_length->setText(tr("Length %1 s").arg(std::max(0.0, samples) / options().rawRateHz, 0, 'g', 6));
-    m_form->editor(QStringLiteral("iq"))->setEnabled(!type.isComplex && options().rawChannels % 2 == 0);
-    m_buttons->button(QDialogButtonBox::Open)->setEnabled(!m_form->isRefused());
+    const OpenOptions options = this->options();
+    const Index sampleBytes = parseSampleType(options.rawType, "type").sampleBytes() * options.rawChannels;
+    const Index samples = (m_fileBytes - options.rawHeaderBytes) / sampleBytes;
+    m_length->setText(m_form->isRefused() ? tr("Length unknown")
+                      : samples > 0       ? tr("Length %1 s").arg(double(samples) / options.rawRateHz, 0, 'g', 6)
+                                          : tr("No sample: the file has %1 bytes").arg(m_fileBytes));
+    m_form->editor(QStringLiteral("iq"))->setEnabled(takesPairs(options));
+    m_buttons->button(QDialogButtonBox::Open)->setEnabled(!m_form->isRefused() && samples > 0);
 }
 
 } // namespace faintline

@@ -20,7 +20,7 @@ public:
     /// Initialised from the file's name.
     explicit OpenOptionsDialog(const QString &path, QWidget *parent = nullptr);
 
-    const OpenOptions &options() const { return m_form->value(); }
+    OpenOptions options() const;
 
 private:
     void showLength();

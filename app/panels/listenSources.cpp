@@ -2,6 +2,7 @@
 
 #include "app/base/filePath.h"
 #include "app/base/tr.h"
+#include "app/panels/rawFields.h"
 #include "base/Error.h"
 #include "live/sources/IqSource.h"
 #include "live/sources/PipeSource.h"
@@ -10,7 +11,6 @@
 #include "live/sources/UdpSource.h"
 #include "live/sources/soundDevices.h"
 #include "signal/formats/SampleType.h"
-#include "signal/openFields.h"
 #include "widgets/forms/FieldForm.h"
 
 #include <QCheckBox>
@@ -75,7 +75,7 @@ namespace {
     private:
         static std::vector<Field<OpenOptions>> ofStreams()
         {
-            std::vector<Field<OpenOptions>> fields = openFields();
+            std::vector<Field<OpenOptions>> fields = rawFields();
             std::erase_if(fields,
                           [](const auto &field) { return field.name == "rawHeaderBytes" || field.name == "iq"; });
             return fields;

@@ -7,9 +7,13 @@
 #include "signal/formats/writeRecording.h"
 #include "support/errors.h"
 
+#include <QCheckBox>
+#include <QComboBox>
 #include <QDialogButtonBox>
+#include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QSpinBox>
 
 using namespace faintline;
 
@@ -104,6 +108,50 @@ private slots:
         rate->clear();
         QTest::keyClicks(rate, "moon\r");
         QVERIFY(!dialog.findChild<QDialogButtonBox *>()->button(QDialogButtonBox::Open)->isEnabled());
+    }
+
+    /// While it is typed, and refused where the file would hold no sample.
+    void theDialogSaysHowLongTheRecordingIs()
+    {
+        OpenOptionsDialog dialog(file("h.ci16", QByteArray(4000, 'x')));
+        auto *rate = dialog.findChild<QLineEdit *>("rawRateHz");
+        auto *header = dialog.findChild<QSpinBox *>("rawHeaderBytes");
+        const QAbstractButton *open = dialog.findChild<QDialogButtonBox *>()->button(QDialogButtonBox::Open);
+        const auto says = [&](const QString &text) {
+            return std::ranges::any_of(dialog.findChildren<QLabel *>(),
+                                       [&](const QLabel *one) { return one->text() == text; });
+        };
+        rate->setText({});
+        QTest::keyClicks(rate, "100");
+        QVERIFY(says("Length 10 s") && open->isEnabled());
+        QCOMPARE(rate->text(), "100");
+        header->selectAll();
+        QTest::keyClicks(header, "2000");
+        QVERIFY(says("Length 5 s"));
+        QTest::keyClicks(header, "0"); // 20000
+        QVERIFY(says("No sample: the file has 4000 bytes") && !open->isEnabled());
+        header->setValue(0);
+        rate->setText({});
+        QTest::keyClicks(rate, "48,000");
+        QVERIFY(says("Length unknown") && !open->isEnabled());
+    }
+
+    /// Which is offered for pairs of real channels, and stays ticked when they become something else.
+    void complexSamplesAreNoPairs()
+    {
+        OpenOptionsDialog dialog(file("i.s16", QByteArray(4000, 'x')));
+        auto *pairs = dialog.findChild<QCheckBox *>("iq");
+        QVERIFY(!pairs->isEnabled()); // of one channel
+        dialog.findChild<QSpinBox *>("rawChannels")->setValue(2);
+        QVERIFY(pairs->isEnabled());
+        pairs->click();
+        QVERIFY(dialog.options().iq);
+        auto *type = dialog.findChild<QComboBox *>("rawType");
+        QCOMPARE(type->itemData(0).toString(), "ci16_le");
+        QCOMPARE(type->count(), 28);
+        type->setCurrentIndex(0);
+        emit type->activated(0);
+        QVERIFY(!pairs->isEnabled() && pairs->isChecked() && !dialog.options().iq);
     }
 };
 

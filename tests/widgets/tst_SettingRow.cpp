@@ -98,6 +98,45 @@ private slots:
         QCOMPARE(error(), QString());
     }
 
+    void tellsWhatIsNoNumberFromWhatIsOutOfRange()
+    {
+        make(seconds(), 1.0);
+        type("loud");
+        QCOMPARE(error(), "must be a number");
+        type("11");
+        QVERIFY2(error().contains("-10 … 10 s"), qPrintable(error()));
+    }
+
+    /// 48 or 48000: the one would be as bad a guess as the other.
+    void aCommaBeforeThreeDigitsIsRefused()
+    {
+        SettingRow &row = make(info(FieldKind::Number, 0.0, 1e6), 1.0);
+        QSignalSpy edited(&row, &SettingRow::edited);
+        type("48,000");
+        QVERIFY2(error().endsWith("write 48000 or 48.000"), qPrintable(error()));
+        QVERIFY(row.isRefused() && edited.isEmpty());
+        type("0,125");
+        QCOMPARE(edited.last()[0].value<FieldValue>(), FieldValue(0.125));
+    }
+
+    void whatIsTypedCountsAtOnceIfItIsTracked()
+    {
+        SettingRow &row = make(info(FieldKind::Number, 0.0, 100.0), 1.0);
+        row.setTracking(true);
+        QSignalSpy edited(&row, &SettingRow::edited);
+        auto *edit = qobject_cast<QLineEdit *>(row.editor());
+        edit->clear();
+        QTest::keyClicks(edit, "2.50");
+        QCOMPARE(edited.last()[0].value<FieldValue>(), FieldValue(2.5));
+        QCOMPARE(edit->text(), "2.50"); // as it was typed
+        QTest::keyClicks(edit, "x");
+        QVERIFY(row.isRefused());
+        QTest::keyClick(edit, Qt::Key_Backspace);
+        QVERIFY(!row.isRefused());
+        QTest::keyClick(edit, Qt::Key_Return);
+        QCOMPARE(edit->text(), "2.5");
+    }
+
     void everyNumberReadsBack_data()
     {
         QTest::addColumn<double>("value");

@@ -70,6 +70,12 @@ void FieldFormBase::showError(const Error &error)
     m_error->show();
 }
 
+void FieldFormBase::setTracking(bool isOn)
+{
+    for (SettingRow *row : std::as_const(m_rows))
+        row->setTracking(isOn);
+}
+
 QWidget *FieldFormBase::editor(const QString &name) const
 {
     const SettingRow *row = m_rows.value(name);

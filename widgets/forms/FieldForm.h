@@ -34,6 +34,8 @@ public:
     void clearErrors();
     /// Whether the text of a row was refused: the value is not what is written.
     bool isRefused() const;
+    /// As of its rows.
+    void setTracking(bool isOn);
     /// The widget that edits a field; null if there is none of this name.
     QWidget *editor(const QString &name) const;
 

@@ -13,6 +13,8 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
+#include <QRegularExpression>
+#include <QScopedValueRollback>
 #include <QSignalBlocker>
 #include <QSpinBox>
 #include <QToolButton>
@@ -20,6 +22,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <utility>
 
 namespace faintline {
@@ -72,6 +75,26 @@ namespace {
             lines << QString::fromStdString(info.advice).toHtmlEscaped();
         lines << QStringLiteral("<small>%1</small>").arg(QString::fromStdString(info.name));
         return QStringLiteral("<qt>%1</qt>").arg(lines.join(QStringLiteral("<br>")));
+    }
+
+    /// Whether a comma may separate thousands as well as decimals: "48,000", but not "0,125".
+    bool hasThousands(const QString &text)
+    {
+        static const QRegularExpression thousands(QStringLiteral("^[+-]?[1-9][0-9]{0,2},[0-9]{3}$"));
+        return thousands.match(text).hasMatch();
+    }
+
+    /// Whether a text is a number, or a word for one, in range or not.
+    bool isNumber(FieldInfo info, const QString &text)
+    {
+        info.minimum = std::numeric_limits<double>::lowest();
+        info.maximum = std::numeric_limits<double>::max();
+        try {
+            parseFieldValue(info, text.toStdString());
+            return true;
+        } catch (const Error &) {
+            return false;
+        }
     }
 
     /// Choices and lists need the width of the form and are placed below their label.
@@ -171,6 +194,13 @@ void SettingRow::setUnit(const QString &unit, double largestMagnitude)
     m_editor->setAccessibleName(tr("%1 in %2").arg(m_label->text(), unit));
 }
 
+void SettingRow::setTracking(bool isOn)
+{
+    m_isTracking = isOn;
+    if (auto *box = qobject_cast<QSpinBox *>(m_editor))
+        box->setKeyboardTracking(isOn);
+}
+
 void SettingRow::setLabelWidth(int width)
 {
     if (!isBelowLabel(m_info))
@@ -222,6 +252,12 @@ void SettingRow::makeEditor()
             if (edit->isModified())
                 acceptText(edit->text());
         });
+        connect(edit, &QLineEdit::textEdited, this, [this](const QString &text) {
+            if (!m_isTracking)
+                return;
+            const QScopedValueRollback typing(m_isTyping, true);
+            acceptText(text);
+        });
         m_editor = edit;
         break;
     }
@@ -233,16 +269,28 @@ void SettingRow::makeEditor()
 
 void SettingRow::acceptText(const QString &text)
 {
-    // A comma in a number is taken for a decimal point; in a list it separates.
-    const QString plain =
-        m_info.kind == FieldKind::Number ? text.trimmed().replace(QLatin1Char(','), QLatin1Char('.')) : text.trimmed();
-    try {
-        accept(parseFieldValue(m_info, QString(plain).replace(QChar(0x2212), QLatin1Char('-')).toStdString()));
-    } catch (const Error &error) {
-        setError(QString::fromStdString(error.why()));
-        m_isRefused = true;
-        emit refusalChanged();
+    QString plain = text.trimmed().replace(QChar(0x2212), QLatin1Char('-'));
+    if (m_info.kind == FieldKind::Number) {
+        if (hasThousands(plain))
+            return refuse(tr("is ambiguous: write %1 or %2")
+                              .arg(QString(plain).remove(QLatin1Char(',')),
+                                   QString(plain).replace(QLatin1Char(','), QLatin1Char('.'))));
+        plain.replace(QLatin1Char(','), QLatin1Char('.')); // a decimal one; in a list it separates
+        if (!isNumber(m_info, plain))
+            return refuse(tr("must be a number%1").arg(orWords(m_info)));
     }
+    try {
+        accept(parseFieldValue(m_info, plain.toStdString()));
+    } catch (const Error &error) {
+        refuse(QString::fromStdString(error.why()));
+    }
+}
+
+void SettingRow::refuse(const QString &why)
+{
+    setError(why);
+    m_isRefused = true;
+    emit refusalChanged();
 }
 
 /// Steps to the next multiples of a step, which are integers over `m_stepsInOne`.
@@ -285,8 +333,10 @@ void SettingRow::setValue(const FieldValue &value)
     else if (auto *arrows = qobject_cast<QAbstractSpinBox *>(m_editor))
         static_cast<ArrowBox *>(arrows)->line()->setText(shownText(value));
     else if (auto *edit = qobject_cast<QLineEdit *>(m_editor)) {
-        edit->setText(shownText(m_info, value));
-        edit->setCursorPosition(0);
+        if (!m_isTyping) {
+            edit->setText(shownText(m_info, value));
+            edit->setCursorPosition(0);
+        }
         m_unit->setVisible(!m_info.unit.empty() && wordFor(m_info, value).isEmpty());
     }
     m_reset->setVisible(value != m_default);

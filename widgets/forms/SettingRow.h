@@ -29,6 +29,8 @@ public:
     void setError(const QString &sentence);
     void setNote(const QString &note);
     void setLabelWidth(int width);
+    /// Whether each letter and digit that is typed counts, not only the finished text.
+    void setTracking(bool isOn);
     void setStepsInOne(double steps) { m_stepsInOne = steps; }
     /// For a unit and range that differ from those of the field's table.
     void setUnit(const QString &unit, double largestMagnitude);
@@ -44,6 +46,7 @@ protected:
 private:
     void makeEditor();
     void acceptText(const QString &text);
+    void refuse(const QString &why);
     void stepBy(int steps);
     void accept(const FieldValue &value);
     void showMessage();
@@ -52,6 +55,8 @@ private:
     FieldValue m_default;
     FieldValue m_value;
     bool m_isRefused = false; ///< the last input
+    bool m_isTracking = false;
+    bool m_isTyping = false; ///< its text stays as it is
     double m_stepsInOne;
     QLabel *m_label;
     QWidget *m_editor = nullptr;
