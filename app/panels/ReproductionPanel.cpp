@@ -10,11 +10,13 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QRegularExpression>
 #include <QSplitter>
 #include <QVBoxLayout>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace faintline {
 
@@ -30,6 +32,14 @@ namespace {
         if (!cell.isJudged())
             return QObject::tr("not judged");
         return cell.isInside() ? QObject::tr("inside") : QObject::tr("outside");
+    }
+
+    /// The number in "-3 dB" or "σ = 0.5", which orders the cells of a sweep.
+    double numberIn(const QString &text)
+    {
+        static const QRegularExpression number(QStringLiteral("(?:^|= )(-?[0-9.]+(?:e[-+]?[0-9]+)?)"));
+        const QRegularExpressionMatch match = number.match(text);
+        return match.hasMatch() ? match.captured(1).toDouble() : std::numeric_limits<double>::quiet_NaN();
     }
 
     std::vector<TableHeading> reproducedHeadings()
@@ -125,9 +135,10 @@ void ReproductionPanel::fillTable()
         const bool hasInterval = cell.interval.low < cell.interval.high;
         const double gap = cell.paper ? cell.ours - *cell.paper : 0.0;
         const auto z = cell.z();
+        const QString column = QString::fromStdString(cell.column);
         rows.push_back(
             {{QString::fromStdString(cell.row)},
-             {QString::fromStdString(cell.column)},
+             {column, numberIn(column)},
              number(cell.paper),
              number(cell.reference),
              number(cell.ours),

@@ -20,9 +20,8 @@ namespace faintline {
 
 SurveyPanel::SurveyPanel(const Document &document, const AnalysisController &controller, QWidget *parent)
     : Panel(parent), m_document(document), m_model(new SurveyModel(this)),
-      m_table(new ColumnTable(tr("Events of the survey"))), m_summary(plainLabel())
+      m_table(new ColumnTable(tr("Events of the survey"), m_model)), m_summary(plainLabel())
 {
-    m_table->show(*m_model);
     m_table->setSortingEnabled(true);
     m_table->sortByColumn(SurveyModel::Statistic, Qt::DescendingOrder);
     m_table->setSmall();

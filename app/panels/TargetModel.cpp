@@ -1,6 +1,7 @@
 #include "app/panels/TargetModel.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace faintline {
@@ -33,7 +34,19 @@ void TargetModel::layColumns()
              .tip = sentence,
              .cellTip = [sentence](int) { return sentence; }});
     }
+    for (int i = 0; i < targetColumnCount; ++i)
+        if (TargetColumn(i) != TargetColumn::Fluctuation) // a word
+            columns[std::size_t(i)].key = [this, i](int row) { return keyAt(row, TargetColumn(i)); };
     setColumns(std::move(columns));
+}
+
+double TargetModel::keyAt(int row, TargetColumn column) const
+{
+    if (column == TargetColumn::Target)
+        return m_rows[std::size_t(row)].target;
+    bool isNumber = false;
+    const double number = data(index(row, int(column)), Qt::EditRole).toString().toDouble(&isNumber);
+    return isNumber ? number : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// Rows that stay keep the open cell editor and the selection.

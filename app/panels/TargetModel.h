@@ -29,6 +29,7 @@ signals:
 
 private:
     void layColumns();
+    double keyAt(int row, TargetColumn column) const;
     void follow();
 
     SceneEditor &m_editor;

@@ -30,7 +30,7 @@ TargetsPanel::TargetsPanel(Document &document, const std::vector<PingMap *> &map
       m_addTarget(new QPushButton(tr("Target at cursor"))), m_addLeg(new QPushButton(tr("Leg to cursor"))),
       m_remove(new QPushButton(tr("Remove target"))), m_clear(new QPushButton(tr("Remove all"))),
       m_save(new QPushButton(tr("Save scene…"))), m_new(new QPushButton(tr("New scene"))), m_unit(new QComboBox),
-      m_table(new ColumnTable(tr("Targets and their legs"))), m_sentence(panelSentence())
+      m_table(new ColumnTable(tr("Targets and their legs"), m_model)), m_sentence(panelSentence())
 {
     m_place->setCheckable(true);
     m_place->setToolTip(tr("Click a map to place a target in the ping shown; drag to draw its first leg"));
@@ -79,8 +79,6 @@ void TargetsPanel::layOut()
 void TargetsPanel::buildTable()
 {
     constexpr int rowHeight = 22;
-    m_table->setModel(m_model); // in its order, which legs have
-    m_table->horizontalHeader()->setSectionsClickable(false);
     m_table->setSelectionMode(QAbstractItemView::SingleSelection);
     m_table->setTabKeyNavigation(false);
     m_table->setWordWrap(false);
@@ -188,18 +186,18 @@ void TargetsPanel::followSelection()
     m_addLeg->setEnabled(!selected.isNone());
     m_remove->setEnabled(!selected.isNone());
     m_remove->setText(selected.corner > 0 ? tr("Remove leg") : tr("Remove target"));
-    if (m_model->handleAt(m_table->currentIndex()) == selected)
+    if (m_model->handleAt(m_table->sourceIndex(m_table->currentIndex())) == selected)
         return;
     const QSignalBlocker blocker(m_table->selectionModel());
     const auto column = selected.corner > 0 ? TargetColumn::RangeRate : TargetColumn::Snr;
-    m_table->setCurrentIndex(m_model->indexOf(selected, int(column)));
+    m_table->setCurrentIndex(m_table->shownIndex(m_model->indexOf(selected, int(column))));
     m_table->viewport()->update();
 }
 
 void TargetsPanel::followCurrent(const QModelIndex &current)
 {
     if (current.isValid())
-        m_editor->select(m_model->handleAt(current));
+        m_editor->select(m_model->handleAt(m_table->sourceIndex(current)));
     showSentence();
 }
 

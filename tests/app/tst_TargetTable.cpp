@@ -151,6 +151,28 @@ private slots:
         QTest::keyClick(&table, Qt::Key_Delete);
         QCOMPARE(scene().targets.size(), std::size_t(1));
     }
+
+    /// By any column, as other tables, and then its cells are still those of their targets.
+    void isSortedAndCopiedCellByCell()
+    {
+        PingViewports::Place cursor = bench().viewports().place();
+        cursor.position = {3400.0, 60.0};
+        bench().viewports().setPlace(cursor);
+        QTest::mouseClick(buttonOf(panel(), "Target at cursor"), Qt::LeftButton);
+        type(1, TargetColumn::Snr, "9");
+        QCOMPARE(cell(0, TargetColumn::Snr), "11");
+        table().sortByColumn(int(TargetColumn::Snr), Qt::AscendingOrder);
+        QCOMPARE(cell(0, TargetColumn::Snr), "9"); // and not 11 before 9, as texts
+        type(0, TargetColumn::Range, "3500");
+        QCOMPARE(last().rangeMetres, 3500.0);
+        QCOMPARE(cell(0, TargetColumn::Range), "3500");
+        table().setCurrentIndex(table().model()->index(1, int(TargetColumn::Snr)));
+        table().actions().front()->trigger();
+        QCOMPARE(QGuiApplication::clipboard()->text(), "11");
+        QTest::keyClick(&table(), Qt::Key_Delete);
+        QCOMPARE(scene().targets.size(), std::size_t(1));
+        QCOMPARE(last().snrDb, 9.0);
+    }
 };
 
 FAINTLINE_WINDOW_TEST(tst_TargetTable)

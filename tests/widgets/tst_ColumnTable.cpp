@@ -52,6 +52,28 @@ private slots:
         QCOMPARE(names(*shown), (QStringList{"first", "second", "third"}));
     }
 
+    void theArrowOfTheSortedColumnLeavesItsHeadingReadable()
+    {
+        const auto shown = table();
+        shown->resize(400, 200);
+        shown->show();
+        const int text = shown->horizontalHeader()->fontMetrics().horizontalAdvance("Value");
+        shown->setColumnWidth(1, text + 6);
+        clickHeading(*shown, 1);
+        QVERIFY(shown->columnWidth(1) >= text + 18);
+    }
+
+    /// What the columns leave of the line of headings looks as they do.
+    void theLineOfHeadingsHasOneColour()
+    {
+        const auto shown = table();
+        shown->resize(600, 100);
+        const QImage picture = shown->grab().toImage();
+        const int y = shown->horizontalHeader()->height() / 2;
+        const int headings = picture.pixelColor(shown->columnWidth(0) - 4, y).lightness();
+        QVERIFY(std::abs(picture.pixelColor(590, y).lightness() - headings) < 3); // the window's differs by 4
+    }
+
     void numbersAreWrittenAsProgramsReadThem()
     {
         QCOMPARE(table()->csv(), std::string("Name,Value\n\"first, of \"\"all\"\"\",-3e-25\nsecond,–\nthird,20\n"));

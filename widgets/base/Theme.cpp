@@ -107,6 +107,20 @@ namespace {
             return QProxyStyle::standardIcon(kind, option, widget);
         }
 
+        /// Fusion fills what a heading leaves of its line with the window's colour.
+        void drawControl(ControlElement element, const QStyleOption *option, QPainter *painter,
+                         const QWidget *widget) const override
+        {
+            if (element != CE_HeaderEmptyArea)
+                return QProxyStyle::drawControl(element, option, painter, widget);
+            QStyleOptionHeader empty;
+            static_cast<QStyleOption &>(empty) = *option;
+            empty.type = QStyleOptionHeader::Type;
+            empty.version = QStyleOptionHeader::Version;
+            empty.position = QStyleOptionHeader::End;
+            QProxyStyle::drawControl(CE_HeaderSection, &empty, painter, widget);
+        }
+
         /// On dark grounds Fusion's outline of an empty box cannot be seen.
         void drawPrimitive(PrimitiveElement element, const QStyleOption *option, QPainter *painter,
                            const QWidget *widget) const override

@@ -23,7 +23,7 @@ namespace faintline {
 
 EventTable::EventTable(QWidget *parent)
     : QWidget(parent), m_model(new EventModel(this)), m_proxy(new EventProxy(this)), m_filter(new QLineEdit),
-      m_table(new ColumnTable(tr("Events"))), m_card(new EventCard(*m_model)), m_count(new QLabel),
+      m_table(new ColumnTable(tr("Events"), m_model, m_proxy)), m_card(new EventCard(*m_model)), m_count(new QLabel),
       m_empty(new QLabel(tr("Events appear here after a recording has been analysed."))), m_unmatchedTitle(new QLabel),
       m_unmatched(new QListWidget)
 {
@@ -94,7 +94,6 @@ void EventTable::setUnmatched(const QStringList &lines)
 
 void EventTable::setUpTable()
 {
-    m_table->show(*m_model, m_proxy);
     m_table->setFrameStyle(QFrame::StyledPanel | QFrame::Sunken);
     m_table->setAlternatingRowColors(true);
     m_table->setWordWrap(false);
@@ -169,16 +168,9 @@ void EventTable::orderColumns()
 /// Number columns are as wide as their headings, without the style's margins.
 void EventTable::narrowColumns()
 {
-    constexpr int room = 6;   // pixels
-    constexpr int arrow = 12; // sort indicator
-    const QHeaderView &header = *m_table->horizontalHeader();
-    for (int column = EventModel::Id; column <= EventModel::Drift; ++column) {
-        if (m_table->isColumnHidden(column))
-            continue;
-        const QString heading = m_model->headerData(column, Qt::Horizontal).toString();
-        const int width = header.fontMetrics().horizontalAdvance(heading) + room;
-        m_table->setColumnWidth(column, width + (header.sortIndicatorSection() == column ? arrow : 0));
-    }
+    for (int column = EventModel::Id; column <= EventModel::Drift; ++column)
+        if (!m_table->isColumnHidden(column))
+            m_table->setColumnWidth(column, m_table->headingWidth(column));
 }
 
 /// Width of a cell's whole text, or of the widest one with as many digits.

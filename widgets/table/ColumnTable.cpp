@@ -38,8 +38,8 @@ namespace {
 
 } // namespace
 
-ColumnTable::ColumnTable(const QString &accessibleName, QWidget *parent)
-    : QTableView(parent), m_own(new ColumnModel(this))
+ColumnTable::ColumnTable(const QString &accessibleName, ColumnModel *model, ColumnProxy *proxy)
+    : m_model(model ? model : new ColumnModel(this)), m_proxy(proxy ? proxy : new ColumnProxy(this))
 {
     constexpr int rowHeight = 22;
     setAccessibleName(accessibleName);
@@ -50,14 +50,22 @@ ColumnTable::ColumnTable(const QString &accessibleName, QWidget *parent)
     setEditTriggers(QAbstractItemView::NoEditTriggers);
     setShowGrid(false);
     setFrameShape(QFrame::NoFrame);
-    show(*m_own);
+    m_proxy->setSortRole(ColumnModel::SortRole);
+    m_proxy->setDynamicSortFilter(false); // a row stays where it is when it changes
+    m_proxy->setSourceModel(m_model);
+    setModel(m_proxy);
 
     // Only a table that is sorted has an arrow, for which all its headings keep room.
     horizontalHeader()->setSortIndicatorClearable(true);
     connect(horizontalHeader(), &QHeaderView::sectionClicked, this, [this](int column) {
-        if (!isSortingEnabled())
-            sortByColumn(column, Qt::AscendingOrder);
+        if (isSortingEnabled())
+            return;
         setSortingEnabled(true);
+        sortByColumn(column, Qt::AscendingOrder);
+    });
+    connect(horizontalHeader(), &QHeaderView::sortIndicatorChanged, this, [this](int column) {
+        if (column >= 0 && horizontalHeader()->sectionResizeMode(column) == QHeaderView::Interactive)
+            setColumnWidth(column, std::max(columnWidth(column), headingWidth(column)));
     });
     auto *copying = new QAction(tr("Copy"), this);
     copying->setShortcut(QKeySequence::Copy);
@@ -65,16 +73,6 @@ ColumnTable::ColumnTable(const QString &accessibleName, QWidget *parent)
     connect(copying, &QAction::triggered, this, &ColumnTable::copy);
     addAction(copying);
     setContextMenuPolicy(Qt::ActionsContextMenu);
-}
-
-void ColumnTable::show(ColumnModel &model, ColumnProxy *proxy)
-{
-    if (proxy || !m_proxy)
-        m_proxy = proxy ? proxy : new ColumnProxy(this);
-    m_proxy->setSortRole(ColumnModel::SortRole);
-    m_proxy->setDynamicSortFilter(false); // a row stays where it is when it changes
-    m_proxy->setSourceModel(&model);
-    setModel(m_proxy);
 }
 
 bool ColumnProxy::lessThan(const QModelIndex &left, const QModelIndex &right) const
@@ -96,11 +94,6 @@ void ColumnTable::setSmall(int rowHeight)
     horizontalHeader()->setMinimumSectionSize(24);
 }
 
-int ColumnTable::sourceRow(const QModelIndex &index) const
-{
-    return m_proxy->mapToSource(index).row();
-}
-
 std::vector<int> ColumnTable::selectedSourceRows() const
 {
     QModelIndexList selected = selectionModel()->selectedRows();
@@ -109,6 +102,14 @@ std::vector<int> ColumnTable::selectedSourceRows() const
     for (const QModelIndex &index : selected)
         rows.push_back(sourceRow(index));
     return rows;
+}
+
+int ColumnTable::headingWidth(int column) const
+{
+    constexpr int room = 6, arrow = 12; // pixels, without the style's margins
+    const QHeaderView &header = *horizontalHeader();
+    return header.fontMetrics().horizontalAdvance(model()->headerData(column, Qt::Horizontal).toString()) + room
+           + (header.sortIndicatorSection() == column ? arrow : 0);
 }
 
 QList<int> ColumnTable::shownColumns() const
@@ -120,12 +121,9 @@ QList<int> ColumnTable::shownColumns() const
     return columns;
 }
 
-QStringList ColumnTable::textsOf(int row) const
+QString ColumnTable::textOf(int row, int column) const
 {
-    QStringList texts;
-    for (const int column : shownColumns())
-        texts << plainText(model()->index(row, column).data().toString());
-    return texts;
+    return plainText(model()->index(row, column).data().toString());
 }
 
 std::string ColumnTable::csv() const
@@ -136,8 +134,8 @@ std::string ColumnTable::csv() const
     QStringList lines{headings.join(QLatin1Char(','))};
     for (int row = 0; row < model()->rowCount(); ++row) {
         QStringList fields;
-        for (const QString &text : textsOf(row))
-            fields << csvField(text);
+        for (const int column : shownColumns())
+            fields << csvField(textOf(row, column));
         lines << fields.join(QLatin1Char(','));
     }
     return (lines.join(QLatin1Char('\n')) + QLatin1Char('\n')).toStdString();
@@ -146,12 +144,16 @@ std::string ColumnTable::csv() const
 void ColumnTable::copy() const
 {
     QStringList lines;
-    for (int row = 0; row < model()->rowCount(); ++row)
-        if (selectionModel()->rowIntersectsSelection(row))
-            lines << textsOf(row).join(QLatin1Char('\t'));
-    if (lines.isEmpty())
-        return;
-    QGuiApplication::clipboard()->setText(lines.join(QLatin1Char('\n')));
+    for (int row = 0; row < model()->rowCount(); ++row) {
+        QStringList texts;
+        for (const int column : shownColumns())
+            if (selectionModel()->isSelected(model()->index(row, column)))
+                texts << textOf(row, column);
+        if (!texts.isEmpty())
+            lines << texts.join(QLatin1Char('\t'));
+    }
+    if (!lines.isEmpty())
+        QGuiApplication::clipboard()->setText(lines.join(QLatin1Char('\n')));
 }
 
 } // namespace faintline
