@@ -3,6 +3,7 @@
 #include "analyse/snrInBandwidth.h"
 #include "app/document/Document.h"
 #include "app/document/statisticUnit.h"
+#include "widgets/events/EventModel.h"
 #include "widgets/events/EventTable.h"
 
 #include <QLineEdit>
@@ -35,9 +36,7 @@ void ShownEvents::showPlan()
 {
     const AnalysisPlan &plan = *m_document.plan();
     const RecordingInfo info = m_document.recording() ? m_document.recording()->info() : RecordingInfo();
-    m_table.setStatisticUnit(statisticUnit(plan.settings));
-    m_table.setAxes(plan.grid().axes);
-    m_table.setOrigin(info.startUnixSeconds, info.centreHz);
+    m_table.setScales({plan.grid().axes, statisticUnit(plan.settings), info.startUnixSeconds, info.centreHz});
 }
 
 void ShownEvents::showEvents()

@@ -23,7 +23,7 @@ private slots:
         const QAbstractItemModelTester tester(m_model.get(), QAbstractItemModelTester::FailureReportingMode::QtTest);
         m_model->setEvents({test::event(1, 5.0, 20.0, 950.0), test::event(2, 1.0, 2.0, 300.0)});
         m_model->setReviews({{2, Verdict::Rejected, "hum", 1}});
-        m_model->setAxes({{"range", "m", 0.0, 10.0, 50, false}, {"bearing", "°", 0.0, 45.0, 8, true}});
+        m_model->setScales({.axes = {{"range", "m", 0.0, 10.0, 50, false}, {"bearing", "°", 0.0, 45.0, 8, true}}});
         m_model->setEvents({});
         QCOMPARE(m_model->rowCount(), 0);
         QCOMPARE(m_model->columnCount(), int(EventModel::ColumnCount));
@@ -56,7 +56,7 @@ private slots:
         event.onsetSeconds = 12.34;
         m_model->setEvents({event});
         QCOMPARE(text(EventModel::Confirmation), QString("1:00:01"));
-        m_model->setOrigin(1721952000.0, 2.5e6);
+        m_model->setScales({.startUnixSeconds = 1721952000.0, .centreHz = 2.5e6});
         QVERIFY(m_model->hasUtc() && m_model->hasRadio());
         QCOMPARE(text(EventModel::Utc), QString("2024-07-26T00:00:12.3Z"));
         QCOMPARE(text(EventModel::Radio), QString("2514095.60"));
@@ -98,7 +98,7 @@ private slots:
         for (const int column : {EventModel::Frequency, EventModel::Bearing, EventModel::Confirmation, EventModel::Snr,
                                  EventModel::Chance, EventModel::Window})
             QCOMPARE(text(column), QString("–"));
-        m_model->setOrigin(0.0, 1e6);
+        m_model->setScales({.startUnixSeconds = 0.0, .centreHz = 1e6});
         QCOMPARE(text(EventModel::Radio), QString());
     }
 
@@ -208,7 +208,7 @@ private slots:
         m_model->setEvents({event});
         QVERIFY(!m_model->hasBearing());
         QSignalSpy headings(m_model.get(), &EventModel::headerDataChanged);
-        m_model->setAxes({{"range", "m", 1000.0, 10.0, 50, false}, {"bearing", "°", 0.0, 45.0, 8, true}});
+        m_model->setScales({.axes = {{"range", "m", 1000.0, 10.0, 50, false}, {"bearing", "°", 0.0, 45.0, 8, true}}});
         QCOMPARE(headings.count(), 1);
         QVERIFY(m_model->hasBearing());
         QCOMPARE(heading(EventModel::Frequency), QString("R (m)"));
@@ -232,10 +232,10 @@ private slots:
         event.position = {1250.0, 45.0, 6.0, -30.0};
         event.ratesPerSecond = {-2.5, 0.125, 0.0, 0.0};
         m_model->setEvents({event});
-        m_model->setAxes({{"range", "m", 0.0, 10.0, 100, false},
-                          {"bearing", "°", 0.0, 3.0, 8, false},
-                          {"elevation", "°", 0.0, 3.0, 4, false},
-                          {"Doppler", "m/s", -50.0, 20.0, 6, false}});
+        m_model->setScales({.axes = {{"range", "m", 0.0, 10.0, 100, false},
+                                     {"bearing", "°", 0.0, 3.0, 8, false},
+                                     {"elevation", "°", 0.0, 3.0, 4, false},
+                                     {"Doppler", "m/s", -50.0, 20.0, 6, false}}});
         const auto heading = [&](int column) { return m_model->headerData(column, Qt::Horizontal, Qt::DisplayRole); };
         QCOMPARE(heading(EventModel::Bearing).toString(), QString::fromUtf8("Bearing (°)"));
         QCOMPARE(heading(EventModel::FourthAxis).toString(), QString("Doppler (m/s)"));
@@ -243,10 +243,10 @@ private slots:
         QCOMPARE(text(EventModel::ThirdAxis), QString("6.0"));
         QCOMPARE(text(EventModel::FourthAxis), QString::fromUtf8("−30.0"));
         QVERIFY(m_model->hasColumn(EventModel::FourthAxis));
-        m_model->setAxes({Axis::unnamed(1, 50), Axis::unnamed(2, 8)});
+        m_model->setScales({.axes = {Axis::unnamed(1, 50), Axis::unnamed(2, 8)}});
         QCOMPARE(heading(EventModel::Frequency).toString(), QString("Axis 1"));
         QCOMPARE(heading(EventModel::Bearing).toString(), QString("Axis 2"));
-        m_model->setAxes({{"frequency", "Hz", 0.0, 1.0, 100, false}});
+        m_model->setScales({.axes = {{"frequency", "Hz", 0.0, 1.0, 100, false}}});
         QVERIFY(!m_model->hasColumn(EventModel::Bearing) && !m_model->hasColumn(EventModel::ThirdAxis));
     }
 
@@ -254,7 +254,7 @@ private slots:
     {
         QCOMPARE(heading(EventModel::Statistic), QString("D (nat)"));
         QSignalSpy headings(m_model.get(), &EventModel::headerDataChanged);
-        m_model->setStatisticUnit("× noise");
+        m_model->setScales({.statisticUnit = "× noise"});
         QCOMPARE(heading(EventModel::Statistic), QString("D (× noise)"));
         QCOMPARE(headings.count(), 1);
     }
@@ -285,7 +285,7 @@ private slots:
 
     void headingsAreThoseOfTheColumnsOfFiles()
     {
-        m_model->setAxes({{"frequency", "Hz", 0.0, 1.0, 100, false}});
+        m_model->setScales({.axes = {{"frequency", "Hz", 0.0, 1.0, 100, false}}});
         QMap<QString, QString> tips;
         for (int column = 0; column < EventModel::ColumnCount; ++column)
             tips[heading(column)] = m_model->headerData(column, Qt::Horizontal, Qt::ToolTipRole).toString();

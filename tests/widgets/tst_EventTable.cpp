@@ -109,7 +109,8 @@ private slots:
         events[0].position = {10460.0, 270.0};
         events[1].position = {5720.0, 72.0};
         m_table->setEvents({});
-        m_table->setAxes({{"range", "m", 1000.0, 10.0, 2500, false}, {"bearing", "°", 0.0, 18.0, 20, true}});
+        m_table->setScales(
+            {.axes = {{"range", "m", 1000.0, 10.0, 2500, false}, {"bearing", "°", 0.0, 18.0, 20, true}}});
         m_table->setEvents(events);
         m_table->resize(280, 200);
         QCoreApplication::processEvents();
@@ -130,7 +131,7 @@ private slots:
         event.windowSeconds = 0.25;
         m_table->setEvents({event, test::event(8, 50.0, 60.0, 100.0)});
         m_table->setSnrUnit("dB in 2500 Hz");
-        m_table->setOrigin(1.7e9, 0.0);
+        m_table->setScales({.startUnixSeconds = 1.7e9});
         EventReview classified;
         classified.event = 7;
         classified.label = "a <whale>";
@@ -261,10 +262,10 @@ private slots:
         const QTableView &table = *m_table->table();
         QVERIFY(table.isColumnHidden(EventModel::Utc));
         QVERIFY(table.isColumnHidden(EventModel::Radio));
-        m_table->setOrigin(1721952000.0, 2.5e6);
+        m_table->setScales({.startUnixSeconds = 1721952000.0, .centreHz = 2.5e6});
         QVERIFY(!table.isColumnHidden(EventModel::Utc));
         QVERIFY(!table.isColumnHidden(EventModel::Radio));
-        m_table->setOrigin({}, 0.0);
+        m_table->setScales({});
         QVERIFY(table.isColumnHidden(EventModel::Utc));
     }
 

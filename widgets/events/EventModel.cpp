@@ -77,10 +77,12 @@ ShownColumn<Event> EventModel::withTimes(ShownColumn<Event> column) const
 
 ShownColumn<Event> EventModel::ofAxis(std::size_t axis) const
 {
-    const auto unitOf = [this](std::size_t i) { return labelText(m_axes[i].unit, mostUnitLetters); };
-    const auto nameOf = [this](std::size_t i) { return capitalised(labelText(m_axes[i].name, mostUnitLetters)); };
+    const auto unitOf = [this](std::size_t i) { return labelText(m_scales.axes[i].unit, mostUnitLetters); };
+    const auto nameOf = [this](std::size_t i) {
+        return capitalised(labelText(m_scales.axes[i].name, mostUnitLetters));
+    };
     ShownColumn<Event> column;
-    column.text = [axis, decimals = axis == 0 && hasBearing() ? decimalsFor(m_axes.front().step)
+    column.text = [axis, decimals = axis == 0 && hasBearing() ? decimalsFor(m_scales.axes.front().step)
                                     : axis == 0               ? 2
                                                               : 1](const Event &event) {
         return axis < event.position.size() ? numberText(event.position[axis], decimals) : QStringLiteral("–");
@@ -93,14 +95,14 @@ ShownColumn<Event> EventModel::ofAxis(std::size_t axis) const
         column.tip = tr("Frequency in the middle between onset and end");
         return column;
     }
-    const bool isThere = axis < m_axes.size();
+    const bool isThere = axis < m_scales.axes.size();
     column.tip = tr("%1 at detection").arg(isThere ? nameOf(axis) : tr("Position"));
     if (!isThere || unitOf(axis).isEmpty()) {
         column.heading = isThere ? nameOf(axis) : tr("Axis %1").arg(axis + 1);
         return column;
     }
     // As "f (Hz)", so that the times are in view; the tool tip has the whole name.
-    const bool isBrief = m_axes.size() == 2 && nameOf(0).left(1) != nameOf(1).left(1);
+    const bool isBrief = m_scales.axes.size() == 2 && nameOf(0).left(1) != nameOf(1).left(1);
     column.spoken = QStringLiteral("%1 (%2)").arg(nameOf(axis), unitOf(axis));
     column.heading = isBrief ? QStringLiteral("%1 (%2)").arg(nameOf(axis).left(1), unitOf(axis)) : column.spoken;
     return column;
@@ -110,12 +112,12 @@ ShownColumn<Event> EventModel::ofAxis(std::size_t axis) const
 std::vector<ShownColumn<Event>> EventModel::columns() const
 {
     using E = const Event &;
-    const auto radioHz = [this](E event) { return m_centreHz + event.position.front(); };
+    const auto radioHz = [this](E event) { return m_scales.centreHz + event.position.front(); };
     ShownColumn<Event> onset = withTimes(ofFile("t_onset", {}, QString()));
     onset.tip = tr("%1; s, from ten minutes on h:min:s").arg(onset.tip);
     ShownColumn<Event> drift = ofFile("drift_hz_per_s", {});
     if (hasBearing())
-        drift.heading = tr("Rate (%1/s)").arg(labelText(m_axes.front().unit, mostUnitLetters));
+        drift.heading = tr("Rate (%1/s)").arg(labelText(m_scales.axes.front().unit, mostUnitLetters));
     drift.key = [this](E event) {
         return hasBearing() && !event.ratesPerSecond.empty() ? event.ratesPerSecond.front() : event.driftPerSecond;
     };
@@ -139,7 +141,7 @@ std::vector<ShownColumn<Event>> EventModel::columns() const
                    .key = [](E event) { return event.confirmSeconds; },
                    .tip = tr("Confirmed: time at which the track was confirmed")}),
         ofFile(
-            "statistic", [](E event) { return numberText(event.statistic, 1); }, m_statisticUnit),
+            "statistic", [](E event) { return numberText(event.statistic, 1); }, m_scales.statisticUnit),
         snr,
         ofFile("noise_probability", [](E event) { return orDash(event.noiseProbability, chanceText); }),
         ofFile("window_s",
@@ -149,9 +151,9 @@ std::vector<ShownColumn<Event>> EventModel::columns() const
         {.heading = tr("Onset (UTC)"),
          .text =
              [this](E event) {
-                 return m_startUnixSeconds
-                            ? QString::fromStdString(formatUtc(toTenths(*m_startUnixSeconds + event.onsetSeconds)))
-                            : QString();
+                 return m_scales.startUnixSeconds ? QString::fromStdString(
+                            formatUtc(toTenths(*m_scales.startUnixSeconds + event.onsetSeconds)))
+                                                  : QString();
              },
          .key = [](E event) { return event.onsetSeconds; },
          .tip = tr("Date and time of the onset")},
@@ -310,29 +312,18 @@ bool EventModel::hasClasses() const
     return !m_labels.empty();
 }
 
-void EventModel::setStatisticUnit(const QString &unit)
+void EventModel::setScales(const EventScales &scales)
 {
-    m_statisticUnit = unit;
+    if (scales == m_scales)
+        return;
+    m_scales = scales;
     layColumns();
 }
 
 void EventModel::setSnrUnit(const QString &unit)
 {
-    m_snrUnit = unit;
-    layColumns();
-}
-
-void EventModel::setAxes(const std::vector<Axis> &axes)
-{
-    m_axes = axes;
-    layColumns();
-}
-
-void EventModel::setOrigin(std::optional<double> startUnixSeconds, double centreHz)
-{
-    m_startUnixSeconds = startUnixSeconds;
-    m_centreHz = centreHz;
-    layColumns();
+    if (std::exchange(m_snrUnit, unit) != unit)
+        layColumns();
 }
 
 } // namespace faintline

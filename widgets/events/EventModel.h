@@ -12,6 +12,16 @@
 
 namespace faintline {
 
+/// What the numbers of a list of events are measured in and from.
+struct EventScales {
+    std::vector<Axis>
+        axes{}; ///< of the positions; of two, the first takes the frequency's column, the second is the bearing
+    QString statisticUnit = QStringLiteral("nat");
+    std::optional<double> startUnixSeconds{}; ///< of the recording
+    double centreHz = 0.0;                    ///< the frequency that corresponds to 0 Hz
+    bool operator==(const EventScales &) const = default;
+};
+
 /// Table model of events. Numbers sort numerically (`SortRole`), and are shown with a suitable number of digits.
 class EventModel : public ColumnModel
 {
@@ -52,23 +62,18 @@ public:
     /// Reviews in any order; events without one are not reviewed.
     void setReviews(const std::vector<EventReview> &reviews);
     EventReview review(const Event &event) const;
-    void setStatisticUnit(const QString &unit);
+    void setScales(const EventScales &scales);
     void setSnrUnit(const QString &unit); ///< of the events' SNR, by default "dB": in a bin
-    /// The axes of the events' positions; with two axes, the first takes the frequency's column, the second is the
-    /// bearing.
-    void setAxes(const std::vector<Axis> &axes);
     bool hasBearing() const { return hasColumn(Bearing); }
     /// Whether a column of a position is on an axis of the frames.
-    bool hasColumn(Column column) const { return std::size_t(column - Frequency) < m_axes.size(); }
-    /// Sets the recording's start time (UTC) and the frequency that corresponds to 0 Hz.
-    void setOrigin(std::optional<double> startUnixSeconds, double centreHz);
-    bool hasUtc() const { return m_startUnixSeconds.has_value(); }
+    bool hasColumn(Column column) const { return std::size_t(column - Frequency) < m_scales.axes.size(); }
+    bool hasUtc() const { return m_scales.startUnixSeconds.has_value(); }
     bool hasChances() const;
     /// Whether another window found some of the events.
     bool hasWindows() const;
     /// Whether any event has a class.
     bool hasClasses() const;
-    bool hasRadio() const { return m_centreHz != 0.0; }
+    bool hasRadio() const { return m_scales.centreHz != 0.0; }
     const std::vector<Event> &events() const { return m_events; }
 
     /// Row of an event; -1 if there is none with that id.
@@ -94,12 +99,9 @@ private:
     QHash<int, Event> m_ordered; ///< with the values by which they are ordered
     QHash<int, EventReview> m_reviews;
     std::set<std::string> m_labels; ///< in order, for sorting; events without one come last
-    std::vector<Axis> m_axes;
-    std::optional<double> m_startUnixSeconds;
-    double m_centreHz = 0.0;
+    EventScales m_scales;
     int m_timeDecimals = 1;       ///< of seconds, as short as the recording allows
     bool m_areClockTimes = false; ///< h:min:s
-    QString m_statisticUnit = QStringLiteral("nat");
     QString m_snrUnit = QStringLiteral("dB");
 };
 

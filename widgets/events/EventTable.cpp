@@ -232,29 +232,19 @@ std::vector<int> EventTable::selectedEvents() const
     return ids;
 }
 
-void EventTable::setStatisticUnit(const QString &unit)
+void EventTable::setScales(const EventScales &scales)
 {
-    m_model->setStatisticUnit(unit);
+    m_model->setScales(scales);
+    for (const auto column : {EventModel::Bearing, EventModel::ThirdAxis, EventModel::FourthAxis})
+        m_table->setColumnHidden(column, !m_model->hasColumn(column));
+    m_table->setColumnHidden(EventModel::Utc, !m_model->hasUtc());
+    m_table->setColumnHidden(EventModel::Radio, !m_model->hasRadio());
+    orderColumns();
 }
 
 void EventTable::setSnrUnit(const QString &unit)
 {
     m_model->setSnrUnit(unit);
-}
-
-void EventTable::setAxes(const std::vector<Axis> &axes)
-{
-    m_model->setAxes(axes);
-    for (const auto column : {EventModel::Bearing, EventModel::ThirdAxis, EventModel::FourthAxis})
-        m_table->setColumnHidden(column, !m_model->hasColumn(column));
-    orderColumns();
-}
-
-void EventTable::setOrigin(std::optional<double> startUnixSeconds, double centreHz)
-{
-    m_model->setOrigin(startUnixSeconds, centreHz);
-    m_table->setColumnHidden(EventModel::Utc, !m_model->hasUtc());
-    m_table->setColumnHidden(EventModel::Radio, !m_model->hasRadio());
 }
 
 void EventTable::setEmptySentence(const QString &sentence)

@@ -20,6 +20,7 @@ namespace faintline {
 class EventCard;
 class EventModel;
 class EventProxy;
+struct EventScales;
 
 /// The events of an analysis: sorted by any column, filtered by a line of text, stepped through with N and Shift+N.
 ///
@@ -35,10 +36,8 @@ public:
     /// Keeps the selection if the event with that id still exists.
     void setEvents(const std::vector<Event> &events);
     void setReviews(const std::vector<EventReview> &reviews); ///< of these events
-    void setStatisticUnit(const QString &unit);
+    void setScales(const EventScales &scales);
     void setSnrUnit(const QString &unit);
-    void setAxes(const std::vector<Axis> &axes);                             ///< of the events' positions
-    void setOrigin(std::optional<double> startUnixSeconds, double centreHz); ///< see EventModel::setOrigin
     /// Reviews of signals that match no event, one per line; an empty list hides them.
     void setUnmatched(const QStringList &lines);
     void setEmptySentence(const QString &sentence);
