@@ -6,6 +6,7 @@
 #include "evaluate/comparison/differencePicture.h"
 #include "widgets/base/FlowLayout.h"
 #include "widgets/base/Theme.h"
+#include "widgets/base/axisWords.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 #include "widgets/table/ColumnTable.h"
@@ -35,14 +36,14 @@ namespace {
     }
 
     /// Before there are analyses, the headings alone.
-    std::vector<TableHeading> comparedHeadings(const QString &place, const QString &unitA = {},
-                                               const QString &unitB = {})
+    std::vector<TableHeading> comparedHeadings(const ColumnTimes &times, const QString &place,
+                                               const QString &unitA = {}, const QString &unitB = {})
     {
         return {{ComparePanel::tr("In"), {}, Qt::AlignLeft},
-                {ComparePanel::tr("Onset")},
+                {times.heading(ComparePanel::tr("Onset"))},
                 {place},
-                {ComparePanel::tr("A at"), ComparePanel::tr("Time at which A detected it")},
-                {ComparePanel::tr("B at"), ComparePanel::tr("Time at which B detected it")},
+                {times.heading(ComparePanel::tr("A at")), ComparePanel::tr("Time at which A detected it")},
+                {times.heading(ComparePanel::tr("B at")), ComparePanel::tr("Time at which B detected it")},
                 {ComparePanel::tr("D of A"), ComparePanel::tr("Largest statistic in A, %1").arg(unitA)},
                 {ComparePanel::tr("D of B"), ComparePanel::tr("Largest statistic in B, %1").arg(unitB)}};
     }
@@ -148,7 +149,7 @@ QWidget *ComparePanel::buildButtons()
 
 void ComparePanel::buildTable()
 {
-    m_table->show(comparedHeadings(tr("Frequency")));
+    m_table->show(comparedHeadings({0.0, 1.0}, tr("Frequency (Hz)")));
     m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
     m_table->setSelectionMode(QAbstractItemView::SingleSelection);
     m_table->setSortingEnabled(true);
@@ -243,9 +244,11 @@ void ComparePanel::showEvents()
     if (!result)
         return;
     const Axis &place = result->b->grid().axes.back();
-    const double step = result->b->time().step;
-    const auto time = [step](const std::optional<Event> &side) {
-        return side ? TableCell{secondsText(side->detectSeconds, step), side->detectSeconds} : TableCell{};
+    const FrequencyUnit unit = shownUnit(place);
+    const int decimals = place.unit == "Hz" ? decimalsFor(place.step / unit.hz) : 1;
+    const ColumnTimes times(result->b->time().last(), result->b->time().step);
+    const auto time = [&times](const std::optional<Event> &side) {
+        return side ? TableCell{times.text(side->detectSeconds), side->detectSeconds} : TableCell{};
     };
     const auto nats = [](const std::optional<Event> &side) {
         return side ? TableCell{numberText(side->statistic, 1), side->statistic} : TableCell{};
@@ -256,21 +259,18 @@ void ComparePanel::showEvents()
             continue;
         const Event &event = compared.event();
         const double at = event.position.back();
-        rows.push_back(
-            {{nameOf(compared.in()), double(compared.in())},
-             {secondsText(event.onsetSeconds, step), event.onsetSeconds},
-             {place.unit == "Hz" ? hertzText(at, place.step)
-                                 : numberText(at, 1) + QLatin1Char(' ') + labelText(place.unit, mostUnitLetters),
-              at},
-             time(compared.a),
-             time(compared.b),
-             nats(compared.a),
-             nats(compared.b)});
+        rows.push_back({{nameOf(compared.in()), double(compared.in())},
+                        {times.text(event.onsetSeconds), event.onsetSeconds},
+                        {numberText(at / unit.hz, decimals), at},
+                        time(compared.a),
+                        time(compared.b),
+                        nats(compared.a),
+                        nats(compared.b)});
         m_listed.push_back(&compared);
     }
-    m_table->show(comparedHeadings(capitalised(labelText(place.name, mostUnitLetters)),
-                                   statisticUnit(result->a->settings), statisticUnit(result->b->settings)),
-                  std::move(rows));
+    m_table->show(
+        comparedHeadings(times, titleOf(place), statisticUnit(result->a->settings), statisticUnit(result->b->settings)),
+        std::move(rows));
     m_picture->setTracks(tracksAlone(*result), result->b->time());
 }
 

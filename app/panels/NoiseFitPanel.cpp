@@ -2,6 +2,7 @@
 
 #include "app/document/Document.h"
 #include "plan/Calibration.h"
+#include "widgets/base/axisWords.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 #include "widgets/plot/ChartPlot.h"
@@ -24,18 +25,18 @@ namespace {
     constexpr std::int64_t mostCells = 20'000'000;
     constexpr double fewest = 10.0; ///< least number of values beyond a plotted quantile
 
+    QString bandNumbers(const FittedBand &band, const FrequencyUnit &unit)
+    {
+        const int decimals = decimalsFor((band.high - band.low) / unit.hz / 10.0);
+        return QObject::tr("%1 … %2").arg(numberText(band.low / unit.hz, decimals),
+                                          numberText(band.high / unit.hz, decimals));
+    }
+
     QString bandText(const FittedBand &band, const Axis &axis)
     {
-        if (axis.unit != "Hz") {
-            const int decimals = decimalsFor((band.high - band.low) / 10.0);
-            return QObject::tr("%1 … %2 %3")
-                .arg(numberText(band.low, decimals), numberText(band.high, decimals),
-                     labelText(axis.unit, mostUnitLetters));
-        }
-        const FrequencyUnit unit = frequencyUnit(std::max(std::abs(band.low), std::abs(band.high)));
-        const int decimals = decimalsFor((band.high - band.low) / unit.hz / 10.0);
-        return QObject::tr("%1 … %2 %3")
-            .arg(numberText(band.low / unit.hz, decimals), numberText(band.high / unit.hz, decimals), unit.name);
+        const FrequencyUnit unit =
+            axis.unit == "Hz" ? frequencyUnit(std::max(std::abs(band.low), std::abs(band.high))) : shownUnit(axis);
+        return bandNumbers(band, unit) + QLatin1Char(' ') + unit.name;
     }
 
     /// Bins at 0 Hz and at half the rate which are no noise of that law, and are kept from the detector.
@@ -80,13 +81,13 @@ namespace {
         return growsWithoutEnd(pfa) ? NoiseFitPanel::tr("grows") : QStringLiteral("× ") + powerText(pfa.ratio(), 3);
     }
 
-    std::vector<TableHeading> bandHeadings()
+    std::vector<TableHeading> bandHeadings(const QString &unit)
     {
-        return {{NoiseFitPanel::tr("Band"), {}, Qt::AlignLeft},
+        return {{NoiseFitPanel::tr("Band (%1)").arg(unit), {}, Qt::AlignLeft},
                 {NoiseFitPanel::tr("Mean")},
-                {NoiseFitPanel::tr("KS distance"),
+                {NoiseFitPanel::tr("KS (10⁻³)"),
                  NoiseFitPanel::tr("Kolmogorov–Smirnov distance to e^(-y), and its 95 % limit for the number of "
-                                   "independent values")},
+                                   "independent values, in thousandths")},
                 {NoiseFitPanel::tr("Pfa"),
                  NoiseFitPanel::tr("Ratio of the false-alarm probabilities per cell of this band's noise and of noise "
                                    "of the law itself, at the current threshold, or at 10⁻⁴ if that probability is too "
@@ -108,7 +109,7 @@ NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
 {
     m_sentence->setContentsMargins(8, 6, 8, 4);
     m_plot->setEmptySentence(tr("Quantiles of the noise appear here."));
-    m_table->show(bandHeadings());
+    m_table->show(bandHeadings(QStringLiteral("Hz")));
     m_table->setSmall();
     m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
     auto *splitter = new QSplitter(Qt::Vertical);
@@ -154,20 +155,21 @@ void NoiseFitPanel::show()
     const Fit &fit = *m_fit.answer();
     const Axis &axis = fit.analysis->grid().axes.back();
     m_plot->setChart(chartOf(fit.bands, axis));
+    const FrequencyUnit unit = shownUnit(axis);
     std::vector<std::vector<TableCell>> rows;
     for (std::size_t i = 0; i < fit.bands.size(); ++i) {
         const FittedBand &band = fit.bands[i];
         const double distance = band.law.distance();
         rows.push_back(
-            {{bandText(band, axis), band.low},
+            {{bandNumbers(band, unit), band.low},
              {numberText(band.law.mean(), 3), band.law.mean()},
              {tr("%1 %2 %3")
-                  .arg(numberText(distance, 4), band.fits() ? QStringLiteral("≤") : QStringLiteral(">"),
-                       numberText(NoiseLaw::distanceLimit(band.independent), 4)),
+                  .arg(numberText(1e3 * distance, 1), band.fits() ? QStringLiteral("≤") : QStringLiteral(">"),
+                       numberText(1e3 * NoiseLaw::distanceLimit(band.independent), 1)),
               distance},
              fit.pfa.empty() ? TableCell{QStringLiteral("–")} : TableCell{pfaText(fit.pfa[i]), fit.pfa[i].ratio()}});
     }
-    m_table->show(bandHeadings(), std::move(rows));
+    m_table->show(bandHeadings(unit.name), std::move(rows));
     say(fit);
 }
 

@@ -10,6 +10,7 @@
 #include <QPalette>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace faintline {
@@ -35,12 +36,22 @@ namespace {
 
 SurveyModel::SurveyModel(QObject *parent) : ColumnModel(parent)
 {
-    constexpr double resolution = 0.01;
-    const auto number = [this](const QString &heading, double (*value)(const Event &), QString (*text)(double)) {
+    layColumns();
+}
+
+/// All numbers of a column in one unit.
+void SurveyModel::layColumns()
+{
+    double last = 0.0;
+    for (const Row &row : m_content.rows)
+        last = std::max(last, row.event.event.endSeconds);
+    const ColumnTimes times(last, 0.01);
+    const auto number = [this](const QString &heading, double (*value)(const Event &),
+                               const std::function<QString(double)> &text) {
         const auto of = [this, value](int i) { return value(row(i).event.event); };
         return ShownColumn<int>{.heading = heading, .text = [of, text](int i) { return text(of(i)); }, .key = of};
     };
-    const auto seconds = [](double value) { return secondsText(value, resolution); };
+    const auto seconds = [times](double value) { return times.text(value); };
     using E = const Event &;
     std::vector<ShownColumn<int>> columns{
         {.heading = tr("Recording"),
@@ -51,14 +62,14 @@ SurveyModel::SurveyModel(QObject *parent) : ColumnModel(parent)
          .key = [this](int i) { return double(row(i).recording); },
          .alignment = Qt::AlignLeft},
         number(
-            tr("Onset"), [](E event) { return event.onsetSeconds; }, seconds),
+            times.heading(tr("Onset")), [](E event) { return event.onsetSeconds; }, seconds),
         number(
-            tr("Duration"), [](E event) { return event.endSeconds - event.onsetSeconds; }, seconds),
+            times.heading(tr("Duration")), [](E event) { return event.endSeconds - event.onsetSeconds; }, seconds),
         number(
-            tr("Frequency"), [](E event) { return event.position.back(); },
-            [](double hz) { return hertzText(hz, resolution); }),
+            tr("f (Hz)"), [](E event) { return event.position.back(); }, [](double hz) { return numberText(hz, 2); }),
         number(
-            tr("Drift"), [](E event) { return event.driftPerSecond; }, [](double rate) { return rateText(rate); }),
+            tr("Drift (Hz/s)"), [](E event) { return event.driftPerSecond; },
+            [](double rate) { return powerText(rate, 3); }),
         number(
             tr("Statistic"), [](E event) { return event.statistic; },
             [](double value) { return numberText(value, 1); }),
@@ -102,6 +113,7 @@ void SurveyModel::show(Content content)
     beginResetModel();
     m_content = std::move(content);
     setRowCount(int(m_content.rows.size()));
+    layColumns();
     endResetModel();
 }
 

@@ -44,6 +44,8 @@ public:
     const Row &row(int number) const { return m_content.rows[std::size_t(number)]; }
 
 private:
+    void layColumns();
+
     Content m_content;
 };
 

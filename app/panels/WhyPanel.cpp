@@ -55,9 +55,7 @@ namespace {
 
     QString axisText(const Axis &axis, double value)
     {
-        if (axis.unit == "Hz")
-            return hertzText(value, axis.step);
-        return numberText(value, decimalsFor(axis.step)) + QLatin1Char(' ') + labelText(axis.unit, mostUnitLetters);
+        return axis.unit == "Hz" ? hertzText(value, axis.step) : valueText(axis, value, axis.step);
     }
 
     QString placeWords(const std::vector<double> &position, const Grid &grid)
@@ -185,9 +183,9 @@ QString teethSentence(const std::vector<FamilyTooth> &teeth, const FamilySetting
         .arg(unseen.join(QStringLiteral(", ")));
 }
 
-static std::vector<TableHeading> ladderHeadings(const Grid &grid)
+static std::vector<TableHeading> ladderHeadings(const Grid &grid, const ColumnTimes &times)
 {
-    std::vector<TableHeading> headings{{WhyPanel::tr("Time")}};
+    std::vector<TableHeading> headings{{times.heading(WhyPanel::tr("Time"))}};
     for (const Axis &axis : grid.axes)
         headings.push_back({axis.unit == "Hz" ? WhyPanel::tr("f (%1)").arg(shownUnit(axis).name) : titleOf(axis)});
     headings.insert(
@@ -337,12 +335,13 @@ void WhyPanel::show()
                             : whySentence(explanation, analysis) + QLatin1Char(' ') + teethSentence(teeth, family));
     showTeeth(teeth, family);
     m_plot->setChart(chartOf(explanation, time));
+    const ColumnTimes times(time.last(), time.step);
     const std::size_t count = std::min(explanation.steps.size(), longestLadder);
     std::vector<std::vector<TableCell>> rows(count);
     for (std::size_t row = 0; row < count; ++row) {
         const PathStep &step = explanation.steps[explanation.steps.size() - 1 - row];
         const double seconds = time.value(double(step.frame));
-        rows[row] = {{secondsText(seconds, time.step), seconds}};
+        rows[row] = {{times.text(seconds), seconds}};
         const std::vector<Index> cells = grid.coordinates(space.cellOf(step.state));
         for (std::size_t i = 0; i < cells.size(); ++i) {
             const Axis &axis = grid.axes[i];
@@ -357,7 +356,7 @@ void WhyPanel::show()
                           std::isfinite(step.runnerUp) ? TableCell{numberText(-step.runnerUp, 2), -step.runnerUp}
                                                        : TableCell{QStringLiteral("–")}});
     }
-    m_ladder->show(ladderHeadings(grid), std::move(rows));
+    m_ladder->show(ladderHeadings(grid, times), std::move(rows));
 }
 
 } // namespace faintline

@@ -60,6 +60,21 @@ QString secondsText(double seconds, double resolution)
     return clockText(seconds, decimals, true);
 }
 
+ColumnTimes::ColumnTimes(double longest, double resolution)
+    : m_areClockTimes(longest >= clockFromSeconds), m_decimals(decimalsFor(resolution))
+{
+}
+
+QString ColumnTimes::text(double seconds) const
+{
+    return m_areClockTimes ? clockText(seconds, m_decimals, true) : numberText(seconds, m_decimals);
+}
+
+QString ColumnTimes::heading(const QString &name) const
+{
+    return m_areClockTimes ? name : QStringLiteral("%1 (s)").arg(name);
+}
+
 FrequencyUnit frequencyUnit(double largestHz)
 {
     if (std::abs(largestHz) >= 1e7)

@@ -18,6 +18,19 @@ inline constexpr double clockFromSeconds = 600.0;
 /// "83.25 s", or for ten minutes and more "1:02:30.5" (h:min:s).
 QString secondsText(double seconds, double resolution);
 
+/// The form of a column's times, the longest of which is given: seconds, or from ten minutes on h:min:s in all rows.
+class ColumnTimes
+{
+public:
+    ColumnTimes(double longest, double resolution);
+    QString text(double seconds) const;         ///< without a unit
+    QString heading(const QString &name) const; ///< "Onset (s)", "Onset"
+
+private:
+    bool m_areClockTimes;
+    int m_decimals;
+};
+
 /// h:min:s or min:s, without a unit: "1:02:30", "12:05".
 QString clockText(double seconds, int decimals, bool withHours);
 
