@@ -1,11 +1,9 @@
 #include "app/control/DrawnLines.h"
 
-#include "widgets/base/quantities.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/waterfall/HandLine.h"
 
 #include <QAction>
-#include <QItemSelectionModel>
 #include <QMenu>
 
 #include <algorithm>

@@ -11,7 +11,6 @@
 
 #include <QAction>
 #include <QInputDialog>
-#include <QItemSelectionModel>
 #include <QMenu>
 
 #include <algorithm>

@@ -26,7 +26,10 @@ PlainInput::PlainInput(Document &document, WaterfallView &input, QObject *parent
         emit changed();
         follow();
     });
-    connect(&input, &WaterfallView::contextMenuRequested, this, [this](QMenu *menu) { menu->addAction(m_action); });
+    connect(&input, &WaterfallView::contextMenuRequested, this, [this](QMenu *menu) {
+        menu->addSeparator();
+        menu->addAction(m_action);
+    });
     connect(&document, &Document::analysisChanged, this, &PlainInput::follow);
     connect(&document, &Document::opened, this, &PlainInput::follow);
     connect(&m_plain, &JobRunner::failed, this, &PlainInput::failed);

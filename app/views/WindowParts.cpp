@@ -34,8 +34,8 @@ ViewState WindowParts::viewState() const
 
 void WindowParts::restore(const ViewState &view)
 {
-    if (view.selectedEvent != 0)
-        goTo(view.selectedEvent); // what was seen of it follows
+    if (m_document.track(view.selectedEvent)) // other settings may find other events
+        goTo(view.selectedEvent);             // what was seen of it follows
     bench().restore(view);
     panel<ChannelsPanel>().setFirstChannel(view.firstChannel);
 }

@@ -360,6 +360,12 @@ private slots:
         m_window->restore(kept);
         QCOMPARE(m_window->eventTable().selectedEvent(), second);
         QCOMPARE(m_window->workbench().output()->selectedEvent(), second);
+        for (const int gone : {-3, 9999}) { // as other settings leave it
+            ViewState stale = kept;
+            stale.selectedEvent = gone;
+            m_window->restore(stale);
+            QCOMPARE(m_window->workbench().output()->selectedEvent(), second);
+        }
     }
 
     void survivesAnotherThresholdAndTheSession()

@@ -11,14 +11,16 @@ namespace faintline::test {
 
 /// Finding what a user sees, by what it is or is called.
 
-/// The child of that accessible name; without a name, the only one of its type.
+/// The only child of that accessible name; without a name, of its type.
 template <class Child>
 Child &childOf(const QWidget &widget, const QString &name = {})
 {
-    for (Child *child : widget.findChildren<Child *>())
-        if (name.isEmpty() || child->accessibleName() == name)
-            return *child;
-    qFatal("no child %s", qPrintable(name));
+    QList<Child *> found = widget.findChildren<Child *>();
+    if (!name.isEmpty())
+        found.removeIf([&](const Child *child) { return child->accessibleName() != name; });
+    if (found.size() != 1)
+        qFatal("%d children %s", int(found.size()), qPrintable(name));
+    return *found.front();
 }
 
 /// The item of a type that is attached to a plot.

@@ -75,6 +75,8 @@ void PingMap::setMarks(const PingMarks &marks)
 
 void PingMap::setSelectedTrack(int id)
 {
+    if (id == m_overlay->selectedTrack)
+        return;
     for (int i = 0; i < 2; ++i)
         overlays(i)->selectedTrack = id;
     follow();

@@ -119,8 +119,8 @@ void MarkedWaterfall::setTruth(const std::vector<TruthLine> &lines)
 
 void MarkedWaterfall::setSelectedEvent(int id)
 {
-    m_selectedEvent = id;
-    updateContent();
+    if (std::exchange(m_selectedEvent, id) != id)
+        updateContent();
 }
 
 void MarkedWaterfall::setHoveredEvent(int id)
