@@ -178,7 +178,7 @@ QWidget *SequentialPanel::buildRunRow()
 
 void SequentialPanel::connectTests()
 {
-    connect(m_controls, &SequentialControls::runRequested, this, &SequentialPanel::run);
+    connect(m_controls, &StartColumn::startRequested, this, &SequentialPanel::run);
     connect(m_controls, &SequentialControls::onSelectionRequested, this, &SequentialPanel::startOnSelection);
     connect(&m_tests, &SequentialTests::restarted, this, &SequentialPanel::restart);
     connect(&m_tests, &SequentialTests::walksChanged, this, &SequentialPanel::showWalks);

@@ -15,9 +15,9 @@
 
 namespace faintline {
 
-StartColumn::StartColumn(QWidget *form, const QString &progressName, const QString &startToolTip, QWidget *parent)
-    : QWidget(parent), m_start(new QPushButton(tr("Start"))), m_cancel(new QPushButton(tr("Cancel"))),
-      m_progress(new QProgressBar), m_state(new QLabel), m_note(plainLabel())
+StartColumn::StartColumn(QWidget *form, const QString &progressName, const QString &startToolTip, const QString &start)
+    : m_start(new QPushButton(start.isEmpty() ? tr("Start") : start)), m_cancel(new QPushButton(tr("Cancel"))),
+      m_status(new QVBoxLayout), m_progress(new QProgressBar), m_state(new QLabel), m_note(plainLabel())
 {
     constexpr int usualWidth = 330;
     QScrollArea *area = scrolledColumn(form);
@@ -42,18 +42,17 @@ StartColumn::StartColumn(QWidget *form, const QString &progressName, const QStri
     buttons->setSpacing(6);
     buttons->addWidget(m_start, 1);
     buttons->addWidget(m_cancel, 1);
-    auto *status = new QVBoxLayout;
-    status->setContentsMargins(8, 2, 8, 4);
-    status->setSpacing(2);
-    status->addWidget(m_progress);
-    status->addWidget(m_state);
+    m_status->setContentsMargins(8, 2, 8, 4);
+    m_status->setSpacing(2);
+    m_status->addWidget(m_progress);
+    m_status->addWidget(m_state);
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
     layout->addWidget(m_note);
     layout->addWidget(area, 1);
     layout->addLayout(buttons);
-    layout->addLayout(status);
+    layout->addLayout(m_status);
 
     connect(m_start, &QPushButton::clicked, this, &StartColumn::startRequested);
     connect(m_cancel, &QPushButton::clicked, this, &StartColumn::cancelRequested);
@@ -64,13 +63,28 @@ void StartColumn::setStartable(bool isStartable)
     m_start->setEnabled(isStartable);
 }
 
+void StartColumn::addButton(QPushButton *button)
+{
+    m_status->insertWidget(0, button);
+}
+
+void StartColumn::setCancellable(bool isCancellable)
+{
+    m_cancel->setEnabled(isCancellable);
+}
+
+void StartColumn::showProgress(double fraction, const QString &words)
+{
+    m_progress->setValue(int(1000.0 * fraction));
+    m_state->setText(words);
+}
+
 void StartColumn::clearState()
 {
-    m_progress->setValue(0);
-    m_state->clear();
+    showProgress(0.0, {});
     m_note->clear();
     m_note->hide();
-    m_cancel->setEnabled(false);
+    setCancellable(false);
 }
 
 void StartColumn::compare(const Experiments::Entry &shown, const std::optional<Experiment> &ofForm)
@@ -84,22 +98,25 @@ void StartColumn::compare(const Experiments::Entry &shown, const std::optional<E
 
 void StartColumn::showState(const Experiments::Entry &entry)
 {
-    m_cancel->setEnabled(entry.isOpen());
-    m_progress->setValue(int(1000.0 * entry.progress));
     const int runs = entry.campaign ? entry.campaign->experiment.runs() : 0;
     const QString done = tr("%1 of %2 runs").arg(entry.runsDone()).arg(runs);
-    switch (entry.state) {
-    case Experiments::State::Waiting:
-        return m_state->setText(tr("waiting for the previous one"));
-    case Experiments::State::Running:
-        return m_state->setText(entry.doing.isEmpty() ? done : done + QStringLiteral(" · ") + entry.doing);
-    case Experiments::State::Done:
-        return m_state->setText(entry.imported ? tr("imported without trials") : tr("done, %1").arg(done));
-    case Experiments::State::Cancelled:
-        return m_state->setText(tr("cancelled after %1").arg(done));
-    case Experiments::State::Failed:
-        return m_state->setText(tr("failed: %1").arg(entry.failure));
-    }
+    const auto words = [&] {
+        switch (entry.state) {
+        case Experiments::State::Waiting:
+            return tr("waiting for the previous one");
+        case Experiments::State::Running:
+            return entry.doing.isEmpty() ? done : done + QStringLiteral(" · ") + entry.doing;
+        case Experiments::State::Done:
+            return entry.imported ? tr("imported without trials") : tr("done, %1").arg(done);
+        case Experiments::State::Cancelled:
+            return tr("cancelled after %1").arg(done);
+        case Experiments::State::Failed:
+            return tr("failed: %1").arg(entry.failure);
+        }
+        return QString();
+    };
+    setCancellable(entry.isOpen());
+    showProgress(entry.progress, words());
 }
 
 } // namespace faintline

@@ -9,18 +9,23 @@
 class QLabel;
 class QProgressBar;
 class QPushButton;
+class QVBoxLayout;
 
 namespace faintline {
 
-/// The left column of a panel that runs experiments: the form, buttons to start and cancel, and progress.
+/// The left column of a panel that runs experiments or tests: the form, buttons to start and cancel, and progress.
 class StartColumn : public QWidget
 {
     Q_OBJECT
 
 public:
-    StartColumn(QWidget *form, const QString &progressName, const QString &startToolTip, QWidget *parent = nullptr);
+    StartColumn(QWidget *form, const QString &progressName, const QString &startToolTip, const QString &start = {});
 
+    /// Below those that start and cancel.
+    void addButton(QPushButton *button);
     void setStartable(bool isStartable);
+    void setCancellable(bool isCancellable);
+    void showProgress(double fraction, const QString &words);
     void showState(const Experiments::Entry &entry);
     /// Says what is shown if it is not what the form would start. `ofForm`: nothing if the form is incomplete.
     void compare(const Experiments::Entry &shown, const std::optional<Experiment> &ofForm);
@@ -33,6 +38,7 @@ signals:
 private:
     QPushButton *m_start;
     QPushButton *m_cancel;
+    QVBoxLayout *m_status;
     QProgressBar *m_progress;
     QLabel *m_state;
     QLabel *m_note;

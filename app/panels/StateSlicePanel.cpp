@@ -44,7 +44,7 @@ namespace {
 StateSlicePanel::StateSlicePanel(Document &document, OutputLayers &layers, PingViewports &viewports, QWidget *parent)
     : Panel(parent), m_document(document), m_layers(layers), m_viewports(viewports), m_rows(new QComboBox),
       m_columns(new QComboBox), m_others(new QComboBox), m_model(new QComboBox), m_sentence(panelSentence()),
-      m_view(new WaterfallView(tr("States (nat)"))), m_tabs(new QTabBar), m_pane(new QWidget),
+      m_view(new WaterfallView(tr("States (nat)"))), m_tabs(new QTabBar), m_pane(ColourBar::pane(m_view)),
       m_law(new LawPanel(document)), m_marks(new SliceMarks(*m_view)),
       m_cut(
           this, &StateSlicePanel::question,
@@ -124,13 +124,7 @@ void StateSlicePanel::buildView()
     m_view->setObjectName(QStringLiteral("slice"));
     m_view->setEmptySentence(tr("The states of the frame under the cursor appear here."));
     m_view->setMinimumSize(130, 120); // a docked panel must not widen the window
-    auto *bar = new ColourBar;
-    bar->attach(m_view);
-    auto *pane = new QHBoxLayout(m_pane);
-    pane->setContentsMargins(0, 0, 0, 6);
-    pane->setSpacing(0);
-    pane->addWidget(m_view, 1);
-    pane->addWidget(bar);
+    m_pane->layout()->setContentsMargins(0, 0, 0, 6);
 }
 
 void StateSlicePanel::connectChoices()
