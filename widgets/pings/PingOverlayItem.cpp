@@ -1,5 +1,7 @@
 #include "widgets/pings/PingOverlayItem.h"
 
+#include "widgets/base/textPlate.h"
+
 #include <qwt_scale_map.h>
 
 #include <QFontMetricsF>
@@ -38,17 +40,8 @@ struct PingOverlayItem::Canvas {
     void label(const QPointF &beside, const QString &text, const QColor &colour) const
     {
         painter.setFont(Theme::plotFont());
-        const QFontMetricsF metrics(painter.font());
-        QRectF box(beside + QPointF(7.0, -7.0 - metrics.height()),
-                   QSizeF(std::ceil(metrics.horizontalAdvance(text)) + 8.0, std::ceil(metrics.height()) + 1.0));
-        box.moveLeft(std::clamp(box.left(), rect.left(), std::max(rect.right() - box.width(), rect.left())));
-        box.moveTop(std::clamp(box.top(), rect.top(), std::max(rect.bottom() - box.height(), rect.top())));
-        painter.setPen(Qt::NoPen);
-        painter.setBrush(QColor(0, 0, 0, 165));
-        painter.drawRoundedRect(box, 3.0, 3.0);
-        painter.setBrush(Qt::NoBrush);
-        painter.setPen(colour);
-        painter.drawText(box, Qt::AlignCenter, text);
+        const QPointF corner = beside + QPointF(7.0, -7.0 - QFontMetricsF(painter.font()).height());
+        drawOnPlate(painter, plateOf(text, corner, rect), text, colour, QColor(0, 0, 0, 165));
     }
 };
 

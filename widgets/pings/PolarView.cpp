@@ -1,9 +1,9 @@
 #include "widgets/pings/PolarView.h"
 
-#include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 #include "widgets/base/scaleTicks.h"
+#include "widgets/base/textPlate.h"
 #include "widgets/pings/PingOverlayItem.h"
 #include "widgets/pings/PolarItem.h"
 #include "widgets/waterfall/waterfallCommands.h"
@@ -89,13 +89,8 @@ public:
             const QFontMetricsF metrics(painter->font());
             const QRectF box(where - QPointF(0.5 * metrics.horizontalAdvance(words) + 3.0, 0.5 * metrics.height()),
                              QSizeF(metrics.horizontalAdvance(words) + 6.0, metrics.height()));
-            if (!rect.contains(box))
-                return;
-            painter->setPen(Qt::NoPen);
-            painter->setBrush(QColor(0, 0, 0, 120));
-            painter->drawRoundedRect(box, 3.0, 3.0);
-            painter->setPen(QColor(235, 235, 235));
-            painter->drawText(box, Qt::AlignCenter, words);
+            if (rect.contains(box))
+                drawOnPlate(*painter, box, words, QColor(235, 235, 235), QColor(0, 0, 0, 120));
         };
         for (double ring = step; ring < longest; ring += step)
             write(at(ring, 15.0), isFar ? numberText(ring / 1000.0, decimalsFor(step / 1000.0)) + QStringLiteral(" km")

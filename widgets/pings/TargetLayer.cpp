@@ -1,10 +1,9 @@
 #include "widgets/pings/TargetLayer.h"
 
-#include "widgets/base/Theme.h"
+#include "widgets/base/textPlate.h"
 #include "widgets/pings/PolarView.h"
 #include "widgets/waterfall/WaterfallView.h"
 
-#include <QFontMetricsF>
 #include <QKeyEvent>
 #include <QLineF>
 #include <QMouseEvent>
@@ -121,17 +120,7 @@ private:
     {
         const QString text = QStringLiteral("T%1").arg(number + 1);
         painter.setFont(Theme::plotFont());
-        const QFontMetricsF metrics(painter.font());
-        QRectF box(beside + QPointF(8.0, 5.0),
-                   QSizeF(std::ceil(metrics.horizontalAdvance(text)) + 8.0, std::ceil(metrics.height()) + 1.0));
-        box.moveLeft(std::clamp(box.left(), rect.left(), std::max(rect.right() - box.width(), rect.left())));
-        box.moveTop(std::clamp(box.top(), rect.top(), std::max(rect.bottom() - box.height(), rect.top())));
-        painter.setPen(Qt::NoPen);
-        painter.setBrush(QColor(0, 0, 0, 165));
-        painter.drawRoundedRect(box, 3.0, 3.0);
-        painter.setBrush(Qt::NoBrush);
-        painter.setPen(colour);
-        painter.drawText(box, Qt::AlignCenter, text);
+        drawOnPlate(painter, plateOf(text, beside + QPointF(8.0, 5.0), rect), text, colour, QColor(0, 0, 0, 165));
     }
 
     const TargetLayer &m_layer;

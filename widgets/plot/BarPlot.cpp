@@ -92,9 +92,7 @@ void BarPlot::restyle()
 {
     MarkedPlot::restyle();
     const Theme::Colours &colours = Theme::colours(*this);
-    m_key->textColour = colours.text;
-    m_key->plate = colours.canvas;
-    m_key->plate.setAlpha(215);
+    m_key->follow(colours);
     m_key->entries.clear();
     for (const Series &series : m_series)
         m_key->entries.push_back({series.name, QPen(colours.curves[series.colour], 1.0), true});

@@ -1,7 +1,5 @@
 #include "widgets/plot/CurveKey.h"
 
-#include "widgets/base/Theme.h"
-
 #include <QFontMetricsF>
 #include <QPainter>
 
@@ -13,6 +11,13 @@ namespace faintline {
 CurveKey::CurveKey(Qt::Alignment corner) : m_corner(corner)
 {
     setZ(50.0);
+}
+
+void CurveKey::follow(const Theme::Colours &colours, int opacity)
+{
+    textColour = colours.text;
+    plate = colours.canvas;
+    plate.setAlpha(opacity);
 }
 
 double CurveKey::height() const

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "widgets/base/Theme.h"
+
 #include <qwt_plot_item.h>
 
 #include <QPen>
@@ -25,6 +27,7 @@ public:
     QColor textColour;
     QColor plate; ///< behind the key
 
+    void follow(const Theme::Colours &colours, int opacity = 215);
     double height() const; ///< with what is around it, px
 
     void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,

@@ -199,9 +199,7 @@ void ExceedancePlot::restyle()
     m_selection->setPen(colours.curves[3], 1.8);
     m_line->setLinePen(colours.threshold, 2.0);
     m_sentence->colour = colours.faintText;
-    m_key->textColour = colours.text;
-    m_key->plate = colours.canvas;
-    m_key->plate.setAlpha(215);
+    m_key->follow(colours);
     m_label->colour = colours.threshold;
     m_label->plate = m_key->plate;
     const bool isEmpty = !m_calibration;

@@ -1,13 +1,11 @@
 #include "widgets/plot/LineLabel.h"
 
-#include "widgets/base/Theme.h"
+#include "widgets/base/textPlate.h"
 
 #include <qwt_scale_map.h>
 
 #include <QFontMetricsF>
 #include <QPainter>
-
-#include <algorithm>
 
 namespace faintline {
 
@@ -25,15 +23,8 @@ void LineLabel::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleM
     const QSizeF size = QFontMetricsF(painter->font()).size(0, text) + QSizeF(10.0, 5.0);
     const double line = xMap.transform(x);
     const bool isLeft = line - canvasRect.left() > canvasRect.right() - line;
-    QRectF box(QPointF(isLeft ? line - gap - size.width() : line + gap, canvasRect.bottom() - gap - size.height()),
-               size);
-    box.moveLeft(std::clamp(box.left(), canvasRect.left() + 1.0,
-                            std::max(canvasRect.right() - size.width() - 1.0, canvasRect.left() + 1.0)));
-    painter->setPen(Qt::NoPen);
-    painter->setBrush(plate);
-    painter->drawRoundedRect(box, 3.0, 3.0);
-    painter->setPen(colour);
-    painter->drawText(box, Qt::AlignCenter, text);
+    const QPointF corner(isLeft ? line - gap - size.width() : line + gap, canvasRect.bottom() - gap - size.height());
+    drawOnPlate(*painter, movedInto({corner, size}, canvasRect.adjusted(1.0, 0.0, -1.0, 0.0)), text, colour, plate);
     painter->restore();
 }
 

@@ -3,6 +3,7 @@
 #include "widgets/base/CanvasSentence.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/scaleTicks.h"
+#include "widgets/base/textPlate.h"
 #include "widgets/plot/NumberScaleDraw.h"
 
 #include <qwt_plot_grid.h>
@@ -55,11 +56,7 @@ public:
                 continue;
             QColor plate = colours.canvas;
             plate.setAlpha(215);
-            painter->setPen(Qt::NoPen);
-            painter->setBrush(plate);
-            painter->drawRoundedRect(box, 3.0, 3.0);
-            painter->setPen(mark.isUpright ? colours.text : colours.threshold);
-            painter->drawText(box, Qt::AlignCenter, words);
+            drawOnPlate(*painter, box, words, mark.isUpright ? colours.text : colours.threshold, plate);
         }
         if (m_owner.cursor()) {
             const double x = xMap.transform(*m_owner.cursor());

@@ -240,9 +240,7 @@ void StripPlot::restyle()
     m_bandItem->setBrush(bandColour);
     m_level->setLabel(plainText(m_level->title().text(), Theme::plotFont(), colours.threshold));
     m_sentence->colour = colours.faintText;
-    m_key->textColour = colours.text;
-    m_key->plate = colours.canvas;
-    m_key->plate.setAlpha(200);
+    m_key->follow(colours, 200);
     for (std::size_t i = 0; i < m_series.size(); ++i)
         m_series[i]->curve->setPen(colours.curves[i % std::size(colours.curves)], 1.2);
     nameCurves();

@@ -169,9 +169,7 @@ void WalkPlot::restyle()
 {
     MarkedPlot::restyle();
     const Theme::Colours &colours = Theme::colours(*this);
-    m_key->textColour = colours.text;
-    m_key->plate = colours.canvas;
-    m_key->plate.setAlpha(215);
+    m_key->follow(colours);
     m_key->entries.clear();
     const auto has = [this](std::optional<bool> kind) {
         return std::any_of(m_walks.begin(), m_walks.end(), [&](const Walk &walk) { return walk.hasTarget == kind; });

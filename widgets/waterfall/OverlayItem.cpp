@@ -1,5 +1,7 @@
 #include "widgets/waterfall/OverlayItem.h"
 
+#include "widgets/base/textPlate.h"
+
 #include <qwt_scale_map.h>
 
 #include <QFontMetricsF>
@@ -87,15 +89,7 @@ struct OverlayItem::Canvas {
     /// Plate of a label of one or more lines with this corner, kept within the canvas.
     QRectF plateOf(const QPointF &corner, const QString &text, const QFont &font = Theme::plotFont()) const
     {
-        const QFontMetricsF metrics(font);
-        const QStringList lines = text.split(QLatin1Char('\n'));
-        double width = 0.0;
-        for (const QString &line : lines)
-            width = std::max(width, metrics.horizontalAdvance(line));
-        QRectF box(corner, QSizeF(std::ceil(width) + 8.0, double(lines.size()) * std::ceil(metrics.height()) + 1.0));
-        box.moveLeft(std::clamp(box.left(), rect.left(), std::max(rect.right() - box.width(), rect.left())));
-        box.moveTop(std::clamp(box.top(), rect.top(), std::max(rect.bottom() - box.height(), rect.top())));
-        return box;
+        return faintline::plateOf(text, corner, rect, font);
     }
 
     /// Draws small text on a dark background.
@@ -103,20 +97,8 @@ struct OverlayItem::Canvas {
                const QColor &plate = QColor(0, 0, 0, 205), const QFont &font = Theme::plotFont()) const
     {
         painter.setFont(font);
-        const QFontMetricsF metrics(painter.font());
-        const QStringList lines = text.split(QLatin1Char('\n'));
-        const QRectF box = plateOf(corner, text, font);
-        painter.setPen(Qt::NoPen);
-        painter.setBrush(plate);
-        painter.drawRoundedRect(box, 3.0, 3.0);
-        painter.setBrush(Qt::NoBrush);
-        painter.setPen(colour);
-        if (lines.size() == 1)
-            painter.drawText(box, Qt::AlignCenter, text);
-        for (qsizetype i = 0; lines.size() > 1 && i < lines.size(); ++i)
-            painter.drawText(QRectF(box.left() + 4.0, box.top() + double(i) * std::ceil(metrics.height()), box.width(),
-                                    std::ceil(metrics.height())),
-                             Qt::AlignLeft | Qt::AlignVCenter, lines[i]);
+        const auto alignment = text.contains(QLatin1Char('\n')) ? Qt::AlignLeft : Qt::AlignCenter;
+        drawOnPlate(painter, plateOf(corner, text, font), text, colour, plate, alignment);
     }
 };
 
