@@ -179,7 +179,7 @@ private slots:
     {
         PolarItem item;
         item.setPicture(pingPicture(40, 2), grid().axes[1]); // 1400 m, 90°: east
-        item.setColours(ColourMap::named("grey"), {0.0, 30.0});
+        item.setColours({&ColourMap::named("grey"), {0.0, 30.0}});
         item.setGround(Qt::blue);
         const QImage image = item.image({-1500.0, 1500.0}, {-1500.0, 1500.0}, {300, 300});
         QCOMPARE(QColor(image.pixel(150, 150)), QColor(Qt::blue)); // nearer than the first range
@@ -193,7 +193,7 @@ private slots:
     {
         PolarItem item;
         item.setPicture(pingPicture(23, 0), grid().axes[1]);
-        item.setColours(ColourMap::named("grey"), {0.0, 30.0});
+        item.setColours({&ColourMap::named("grey"), {0.0, 30.0}});
         const QImage image = item.image({-1500.0, 1500.0}, {-1500.0, 1500.0}, {60, 60}); // five ranges a pixel
         bool isFound = false;
         for (int y = 0; y < 30; ++y)

@@ -17,7 +17,7 @@ private slots:
         // Two frames (0 … 2 s) of three cells (99 … 105 Hz): values 0 1 2 and 10 11 12.
         RasterItem item;
         item.setPicture(test::countingPicture(2, 3), test::hzAxis(3));
-        item.setColours(ColourMap::named("grey"), {0.0, 20.0});
+        item.setColours({&ColourMap::named("grey"), {0.0, 20.0}});
         const Span time{0.0, 2.0}, hz{99.0, 105.0};
 
         const QImage oldestOnTop = item.image(hz, time, false, {3, 2});
@@ -39,13 +39,13 @@ private slots:
     {
         RasterItem item;
         item.setPicture(test::countingPicture(2, 3), test::hzAxis(3));
-        item.setColours(ColourMap::named("grey"), {1.0, 11.0});
+        item.setColours({&ColourMap::named("grey"), {1.0, 11.0}});
         QImage image = item.image({99.0, 105.0}, {0.0, 2.0}, false, {3, 2});
         QCOMPARE(grey(image, 0, 0), 0);   // below black
         QCOMPARE(grey(image, 1, 0), 0);   // black
         QCOMPARE(grey(image, 1, 1), 255); // white
         QCOMPARE(grey(image, 2, 1), 255); // beyond white
-        item.setColours(ColourMap::named("paper"), {1.0, 11.0});
+        item.setColours({&ColourMap::named("paper"), {1.0, 11.0}});
         image = item.image({99.0, 105.0}, {0.0, 2.0}, false, {3, 2});
         QCOMPARE(grey(image, 1, 1), 0);
     }
@@ -57,14 +57,16 @@ private slots:
         RasterItem item;
         item.setPicture(test::picture(5, 5, [](Index f, Index c) { return f == 2 && c == 2 ? 20.0f : 0.0f; }),
                         test::hzAxis(5));
-        item.setColours(ColourMap::named("grey"), {0.0, 20.0});
-        item.setContour(10.0, 0xff00ff00);
+        PictureColours colours{.map = &ColourMap::named("grey"), .range = {0.0, 20.0}, .contour = 10.0};
+        colours.contourColour = 0xff00ff00;
+        item.setColours(colours);
         const QImage image = item.image({99.0, 109.0}, {0.0, 5.0}, false, {5, 5});
         QCOMPARE(test::pixelsWhere(image, image.rect(), [](QRgb colour) { return colour == 0xff00ff00; }).size(), 4);
         QCOMPARE(image.pixel(2, 2), 0xffffffff);
         QCOMPARE(image.pixel(1, 2), 0xff00ff00);
 
-        item.setContour(25.0, 0xff00ff00);
+        colours.contour = 25.0;
+        item.setColours(colours);
         QCOMPARE(item.image({99.0, 109.0}, {0.0, 5.0}, false, {5, 5}).pixel(1, 2), 0xff000000);
     }
 
@@ -74,7 +76,7 @@ private slots:
         RasterItem item;
         item.setPicture(test::picture(100, 3, [](Index f, Index c) { return float((f * 31 + c) % 40); }),
                         test::hzAxis(3));
-        item.setColours(ColourMap::named("grey"), {0.0, 40.0});
+        item.setColours({&ColourMap::named("grey"), {0.0, 40.0}});
         const QImage before = item.image({99.0, 105.0}, {20.0, 60.0}, false, {3, 10});
         const QImage little = item.image({99.0, 105.0}, {21.0, 61.0}, false, {3, 10});
         const QImage pixel = item.image({99.0, 105.0}, {24.0, 64.0}, false, {3, 10});
@@ -90,9 +92,9 @@ private slots:
             item.setPicture(picture, test::hzAxis(200));
             if (isWarm) { // caches filled by other views must not show
                 item.image({99.0, 300.0}, {0.0, 100.0}, true, {50, 60});
-                item.setContour(12.0, 0xffff0000);
+                item.setColours({.contour = 12.0, .contourColour = 0xffff0000});
                 item.image({99.0, 499.0}, {0.0, 300.0}, false, {120, 90});
-                item.setContour({}, 0);
+                item.setColours({});
             }
             return item.image({99.0, 499.0}, {0.0, 300.0}, false, {120, 90});
         };
@@ -108,7 +110,7 @@ private slots:
         const auto itemOf = [&](bool isTimeVertical) {
             auto item = std::make_unique<RasterItem>();
             item->setPicture(picture, test::hzAxis(300));
-            item->setColours(ColourMap::named("viridis"), {0.0, 45.0});
+            item->setColours({&ColourMap::named("viridis"), {0.0, 45.0}});
             item->setTimeVertical(isTimeVertical);
             return item;
         };

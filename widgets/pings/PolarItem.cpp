@@ -1,6 +1,5 @@
 #include "widgets/pings/PolarItem.h"
 
-#include "widgets/base/ColourScale.h"
 #include "widgets/base/deviceRect.h"
 #include "widgets/base/rasterise.h"
 #include "widgets/pings/visitPolar.h"
@@ -24,7 +23,7 @@ namespace {
 
 } // namespace
 
-PolarItem::PolarItem() : m_map(&ColourMap::named(ColourMap::defaultName()))
+PolarItem::PolarItem()
 {
     setZ(0.0);
 }
@@ -33,19 +32,6 @@ void PolarItem::setPicture(std::shared_ptr<const PeakPyramid> picture, const Axi
 {
     m_picture = std::move(picture);
     m_bearing = bearing;
-}
-
-void PolarItem::setColours(const ColourMap &map, const Span &range, std::optional<double> threshold)
-{
-    m_map = &map;
-    m_range = range;
-    m_threshold = threshold;
-}
-
-void PolarItem::setContour(std::optional<double> value, QRgb colour)
-{
-    m_contour = value;
-    m_contourColour = colour;
 }
 
 QImage PolarItem::image(const Span &x, const Span &y, const QSize &size) const
@@ -66,11 +52,8 @@ QImage PolarItem::image(const Span &x, const Span &y, const QSize &size) const
             values[pixel] = bytes[std::size_t(ring * m_bearing.count + beam)];
     });
 
-    const ColourScale colours = ColourScale::of(m_picture->scale(), m_threshold);
-    std::array<QRgb, 256> table;
-    for (int byte = 0; byte < 256; ++byte)
-        table[std::size_t(byte)] = m_map->at(colours.share(m_picture->scale().value(byte), m_range));
-    const int contourByte = m_contour ? m_picture->scale().byte(*m_contour) : 256;
+    const std::array<QRgb, 256> table = m_colours.table(m_picture->scale());
+    const int contourByte = m_colours.contourByte(m_picture->scale());
     QImage image(size, QImage::Format_RGB32);
     const auto at = [&](int row, int column) {
         const int r = std::clamp(row, 0, size.height() - 1), c = std::clamp(column, 0, size.width() - 1);
@@ -84,7 +67,7 @@ QImage PolarItem::image(const Span &x, const Span &y, const QSize &size) const
             if (here != nothing && here < contourByte && contourByte < 256
                 && std::max({at(row - 1, column), at(row + 1, column), at(row, column - 1), at(row, column + 1)})
                        >= contourByte)
-                line[column] = m_contourColour;
+                line[column] = m_colours.contourColour;
         }
     }
     return image;

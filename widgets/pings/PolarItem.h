@@ -3,14 +3,13 @@
 #include "base/Axis.h"
 #include "frames/PeakPyramid.h"
 #include "widgets/base/Span.h"
-#include "widgets/plot/ColourMap.h"
+#include "widgets/plot/PictureColours.h"
 
 #include <qwt_plot_item.h>
 
 #include <QColor>
 
 #include <memory>
-#include <optional>
 
 namespace faintline {
 
@@ -26,9 +25,7 @@ public:
 
     /// `range` is the picture's own axis, `bearing` that of its cells, in degrees.
     void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &bearing);
-    void setColours(const ColourMap &map, const Span &range, std::optional<double> threshold = {});
-    /// Pixels adjacent to values at or above this one are drawn in the contour's colour.
-    void setContour(std::optional<double> value, QRgb colour);
+    void setColours(const PictureColours &colours) { m_colours = colours; }
     void setGround(const QColor &ground) { m_ground = ground; } ///< where there are no cells
 
     void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
@@ -39,11 +36,7 @@ public:
 private:
     std::shared_ptr<const PeakPyramid> m_picture;
     Axis m_bearing;
-    const ColourMap *m_map;
-    Span m_range{-6.0, 14.0};
-    std::optional<double> m_threshold; ///< of the colours
-    std::optional<double> m_contour;
-    QRgb m_contourColour = 0xffffffff;
+    PictureColours m_colours;
     QColor m_ground;
 };
 

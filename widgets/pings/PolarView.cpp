@@ -150,9 +150,7 @@ void PolarView::restyle()
 void PolarView::followColours()
 {
     const PictureDisplay &display = m_view.display();
-    m_raster->setColours(display.colourMap(), m_view.range(), m_view.threshold());
-    m_raster->setContour(display.shows(PictureDisplay::ThresholdLayer) ? m_view.threshold() : std::nullopt,
-                         Theme::colours(*this).contour.rgb());
+    m_raster->setColours(m_view.colours());
     m_overlay->hasTracks = display.shows(PictureDisplay::TrackLayer);
     m_overlay->hasTruth = display.shows(PictureDisplay::TruthLayer);
     m_overlay->hasEvents = display.shows(PictureDisplay::EventLayer);

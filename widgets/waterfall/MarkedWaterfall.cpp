@@ -3,7 +3,6 @@
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
 #include "widgets/waterfall/OverlayItem.h"
-#include "widgets/waterfall/RasterItem.h"
 #include "widgets/waterfall/waterfallWords.h"
 
 #include <qwt_plot_grid.h>
@@ -166,8 +165,6 @@ void MarkedWaterfall::updateContent()
     overlay.isTimeVertical = isTimeVertical();
     overlay.setVisible(picture() != nullptr);
     m_grid->setVisible(picture() && display().shows(PictureDisplay::GridLayer));
-    raster().setContour(display().shows(PictureDisplay::ThresholdLayer) ? threshold() : std::nullopt,
-                        overlay.colours.contour.rgb());
 
     overlay.hasEvents = display().shows(PictureDisplay::EventLayer);
     overlay.hasTracks = display().shows(PictureDisplay::TrackLayer);
@@ -184,6 +181,14 @@ void MarkedWaterfall::updateContent()
         for (int i = 1; i <= harmonicCount; ++i)
             overlay.harmonicsHz.push_back(i * viewport()->cursor()->hz);
     WaterfallPicture::updateContent();
+}
+
+PictureColours MarkedWaterfall::colours() const
+{
+    PictureColours colours = WaterfallPicture::colours();
+    colours.contour = display().shows(PictureDisplay::ThresholdLayer) ? threshold() : std::nullopt;
+    colours.contourColour = Theme::colours(*this).contour.rgb();
+    return colours;
 }
 
 int MarkedWaterfall::eventAt(const QPointF &position) const

@@ -27,6 +27,7 @@ public:
     void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency) override;
     void setNextPicture(std::shared_ptr<const PeakPyramid> picture) override;
 
+    PictureColours colours() const override; ///< with the threshold's contour, if that is shown
     int selectedEvent() const { return m_selectedEvent; }
     std::optional<Sidebands> sidebands() const;       ///< as shown
     int eventAt(const QPointF &canvasPosition) const; ///< 0: none

@@ -125,7 +125,7 @@ void OverviewStrip::render()
         RasterItem raster;
         raster.setPicture(m_picture, m_frequency);
         raster.setTimeVertical(false);
-        raster.setColours(*m_map, automaticRange(m_picture->scale(), countPixels(*m_picture, frames, cells)));
+        raster.setColours({m_map, automaticRange(m_picture->scale(), countPixels(*m_picture, frames, cells))});
         m_image = raster.image(box.time, box.frequency, true, size);
     }
 }

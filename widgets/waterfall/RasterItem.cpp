@@ -1,6 +1,5 @@
 #include "widgets/waterfall/RasterItem.h"
 
-#include "widgets/base/ColourScale.h"
 #include "widgets/base/deviceRect.h"
 
 #include <qwt_plot.h>
@@ -86,7 +85,7 @@ namespace {
 
 } // namespace
 
-RasterItem::RasterItem() : m_map(&ColourMap::named(ColourMap::defaultName()))
+RasterItem::RasterItem()
 {
     setZ(0.0);
 }
@@ -109,28 +108,6 @@ void RasterItem::draw(const PixelRow &time, const PixelRow &cells, int level, st
 {
     const auto first = Index(std::lround(m_time.position(m_picture->time().first)));
     rasterise(*m_picture, level, time, cells, out, {first, m_time.count});
-}
-
-void RasterItem::setColours(const ColourMap &map, const Span &range, std::optional<double> threshold)
-{
-    m_map = &map;
-    m_range = range;
-    m_threshold = threshold;
-}
-
-void RasterItem::setContour(std::optional<double> value, QRgb colour)
-{
-    m_contour = value;
-    m_contourColour = colour;
-}
-
-std::vector<QRgb> RasterItem::colourTable() const
-{
-    const ColourScale colours = ColourScale::of(m_picture->scale(), m_threshold);
-    std::vector<QRgb> table(256);
-    for (int byte = 0; byte < 256; ++byte)
-        table[std::size_t(byte)] = m_map->at(colours.share(m_picture->scale().value(byte), m_range));
-    return table;
 }
 
 void RasterItem::updateBytes(const PixelRow &time, const PixelRow &cells) const
@@ -196,19 +173,20 @@ void RasterItem::paint(const ImageKey &key, const QSize &size) const
 
     if (m_image.size() != size)
         m_image = QImage(size, QImage::Format_RGB32);
-    const std::vector<QRgb> table = colourTable();
+    const std::array<QRgb, 256> table = key.colours.table(m_picture->scale());
+    const int contourByte = key.colours.contourByte(m_picture->scale());
     std::vector<std::uint8_t> highest(std::size_t(size.width()));
     for (int y = 0; y <= lastRow; ++y) {
         const std::uint8_t *from = row(y);
         auto *to = reinterpret_cast<QRgb *>(m_image.scanLine(y));
         for (int x = 0; x < size.width(); ++x)
             to[x] = table[from[x]];
-        if (key.contourByte > 255)
+        if (contourByte > 255)
             continue;
         raiseNeighbours(row(y - 1), from, row(y + 1), highest);
         for (int x = 0; x < size.width(); ++x) {
-            const bool isBeside = (from[x] < key.contourByte) & (highest[std::size_t(x)] >= key.contourByte);
-            to[x] = isBeside ? key.contourColour : to[x];
+            const bool isBeside = (from[x] < contourByte) & (highest[std::size_t(x)] >= contourByte);
+            to[x] = isBeside ? key.colours.contourColour : to[x];
         }
     }
     m_imageKey = key;
@@ -223,8 +201,7 @@ QImage RasterItem::image(const Span &x, const Span &y, bool isUpward, const QSiz
     updateBytes(pixelRow(time, m_isTimeVertical ? size.height() : size.width(), m_time),
                 (m_isLogarithmic ? logarithmicRow
                                  : pixelRow)(frequency, m_isTimeVertical ? size.width() : size.height(), m_frequency));
-    const int contourByte = m_contour ? m_picture->scale().byte(*m_contour) : 256;
-    paint({isUpward, m_isTimeVertical, m_map, m_range, m_threshold, contourByte, m_contourColour}, size);
+    paint({isUpward, m_isTimeVertical, m_colours}, size);
     return m_image;
 }
 

@@ -4,7 +4,7 @@
 #include "frames/PeakPyramid.h"
 #include "widgets/base/Span.h"
 #include "widgets/base/rasterise.h"
-#include "widgets/plot/ColourMap.h"
+#include "widgets/plot/PictureColours.h"
 
 #include <qwt_plot_item.h>
 
@@ -33,9 +33,7 @@ public:
     void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency, const Axis &time);
     void setTimeVertical(bool isVertical) { m_isTimeVertical = isVertical; }
     void setLogarithmic(bool isLogarithmic) { m_isLogarithmic = isLogarithmic; } ///< the frequency axis
-    void setColours(const ColourMap &map, const Span &range, std::optional<double> threshold = {});
-    /// Pixels adjacent to values at or above this one are drawn in the contour's colour.
-    void setContour(std::optional<double> value, QRgb colour);
+    void setColours(const PictureColours &colours) { m_colours = colours; }
 
     void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
               const QRectF &canvasRect) const override;
@@ -53,11 +51,7 @@ private:
     struct ImageKey {
         bool isUpward = false;
         bool isTimeVertical = false;
-        const ColourMap *map = nullptr;
-        Span range;
-        std::optional<double> threshold;
-        int contourByte = 256;
-        QRgb contourColour = 0;
+        PictureColours colours;
         bool operator==(const ImageKey &) const = default;
     };
 
@@ -65,18 +59,13 @@ private:
     void draw(const PixelRow &time, const PixelRow &cells, int level, std::span<std::uint8_t> out) const;
     void scroll(const PixelRow &time, const PixelRow &cells, int down, int right) const;
     void paint(const ImageKey &key, const QSize &size) const;
-    std::vector<QRgb> colourTable() const;
 
     std::shared_ptr<const PeakPyramid> m_picture;
     Axis m_frequency;
     Axis m_time;
     bool m_isTimeVertical = true;
     bool m_isLogarithmic = false;
-    const ColourMap *m_map;
-    Span m_range{-6.0, 14.0};
-    std::optional<double> m_threshold; ///< of the colours
-    std::optional<double> m_contour;
-    QRgb m_contourColour = 0xffffffff;
+    PictureColours m_colours;
 
     mutable BytesKey m_bytesKey;
     mutable std::vector<std::uint8_t> m_bytes; ///< as laid out by `rasterise`

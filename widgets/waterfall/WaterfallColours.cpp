@@ -39,11 +39,11 @@ void WaterfallPicture::setPlain(bool isPlain)
 
 void WaterfallPicture::applyRange(const Span &range)
 {
-    m_raster->setColours(m_display->colourMap(), range, m_threshold);
-    if (range == m_levels.range())
-        return;
+    const bool isOther = range != m_levels.range();
     m_levels.setRange(range);
-    emit rangeChanged(range.low, range.high);
+    m_raster->setColours(colours());
+    if (isOther)
+        emit rangeChanged(range.low, range.high);
 }
 
 void WaterfallPicture::setRange(double low, double high)
@@ -77,10 +77,9 @@ void WaterfallPicture::stepWhite(int steps)
     setRange(range().low, std::max(range().high + steps * step, range().low + step));
 }
 
-void WaterfallPicture::followColours()
+PictureColours WaterfallPicture::colours() const
 {
-    m_raster->setColours(m_display->colourMap(), range(), m_threshold);
-    replot();
+    return {&m_display->colourMap(), range(), m_threshold};
 }
 
 } // namespace faintline

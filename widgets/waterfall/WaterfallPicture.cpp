@@ -44,7 +44,7 @@ WaterfallPicture::WaterfallPicture(const QString &heading, PictureDisplay *displ
     m_sentence->attach(this);
     m_raster->attach(this);
     setAccessibleName(tr("%1 waterfall").arg(heading));
-    connect(m_display, &PictureDisplay::coloursChanged, this, &WaterfallPicture::followColours);
+    connect(m_display, &PictureDisplay::coloursChanged, this, &WaterfallPicture::updateContent);
     connect(m_direction, &TimeDirection::changed, this, &WaterfallPicture::restyle);
     restyle();
 }
@@ -260,7 +260,6 @@ void WaterfallPicture::setThreshold(double nats)
     if (threshold == m_threshold)
         return;
     m_threshold = threshold;
-    m_raster->setColours(m_display->colourMap(), range(), m_threshold);
     updateContent();
     emit thresholdChanged(nats);
 }
@@ -268,6 +267,7 @@ void WaterfallPicture::setThreshold(double nats)
 void WaterfallPicture::updateContent()
 {
     m_sentence->setVisible(!m_picture);
+    m_raster->setColours(colours());
     replot();
 }
 

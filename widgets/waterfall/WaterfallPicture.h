@@ -5,6 +5,7 @@
 #include "widgets/base/ThemedPlot.h"
 #include "widgets/base/TimeDirection.h"
 #include "widgets/base/Viewport.h"
+#include "widgets/plot/PictureColours.h"
 #include "widgets/waterfall/ColourLevels.h"
 #include "widgets/waterfall/PictureDisplay.h"
 
@@ -74,6 +75,7 @@ public:
     /// Sentence on the canvas while there is no picture.
     void setEmptySentence(const QString &sentence);
 
+    virtual PictureColours colours() const;
     /// Values drawn in the map's first and last colour: dB or nat.
     const Span &range() const { return m_levels.range(); }
     /// Whether the picture shows the level itself, not that over the noise.
@@ -130,8 +132,6 @@ protected:
     /// Called when the contents of the axes have changed; redraws them.
     virtual void updateContent();
 
-    RasterItem &raster() { return *m_raster; }
-
 private:
     double originHz() const; ///< of the frequency axis's labels
     Viewport::Box full() const;
@@ -141,7 +141,6 @@ private:
     void choosePicture(bool isOther = true);
     void countHistogram();
     void applyRange(const Span &range);
-    void followColours();
     double levelStep() const;
 
     QString m_heading;
