@@ -35,14 +35,10 @@ inline void takeNineRates(AnalysisSettings &settings)
 
 /// What tests of the targets panel share: a window with a sea of one target, its panel open, and hands on map and
 /// table.
-class TargetsTest : public QObject
+class TargetsTest : public WindowTest
 {
 protected:
-    void writeScene()
-    {
-        Theme::apply(Theme::Kind::Light);
-        m_path = writeFile(m_folder, "sea.json", seaText);
-    }
+    void writeScene() { m_path = writeFile(m_folder, "sea.json", seaText); }
     void openScene()
     {
         m_window = newWindow({1400, 1000});
@@ -102,9 +98,7 @@ protected:
         return table().model()->index(row, int(column)).data().toString();
     }
 
-    QTemporaryDir m_folder;
     QString m_path;
-    std::unique_ptr<MainWindow> m_window;
 };
 
 } // namespace faintline::test

@@ -2,6 +2,7 @@
 
 #include "app/window/Listening.h"
 #include "app/window/MainWindow.h"
+#include "app/workspace/Workbench.h"
 #include "support/slowdown.h"
 
 #include <QAbstractButton>
@@ -73,5 +74,28 @@ inline bool openAndSettle(MainWindow &window, const QString &path, const Analysi
     window.open(path, {}, adjust);
     return settle(window);
 }
+
+/// A test of a window in which something is open.
+class WindowTest : public QObject
+{
+protected:
+    WindowTest() { Theme::apply(Theme::Kind::Light); }
+
+    /// Opens a scene in a new window; whether that is done.
+    bool open(const QByteArray &scene, const AnalysisController::Adjust &adjust = {}, QSize size = {1400, 900})
+    {
+        m_window = newWindow(size);
+        return openAndSettle(*m_window, writeFile(m_folder, QStringLiteral("scene.json"), scene), adjust);
+    }
+
+    QString path(const QString &name) const { return m_folder.filePath(name); }
+    Document &document() const { return m_window->document(); }
+    Viewport &viewport() const { return document().viewport(); }
+    WaterfallView &input() const { return *m_window->workbench().input(); }
+    WaterfallView &output() const { return *m_window->workbench().output(); }
+
+    QTemporaryDir m_folder;
+    std::unique_ptr<MainWindow> m_window;
+};
 
 } // namespace faintline::test

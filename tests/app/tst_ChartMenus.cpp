@@ -15,20 +15,16 @@ using namespace faintline;
 using namespace faintline::test;
 
 /// Charts leave the window by their own menus, with a caption of what they were made from.
-class tst_ChartMenus : public QObject
+class tst_ChartMenus : public WindowTest
 {
     Q_OBJECT
 
 private slots:
     void initTestCase()
     {
-        m_window = newWindow();
-        QVERIFY(openAndSettle(*m_window,
-                              writeFile(m_folder, "noise.json",
-                                        R"({"sampleRateHz": 200, "durationSeconds": 60, "noise": {"deviation": 1}})"),
-                              [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; }));
+        QVERIFY(open(R"({"sampleRateHz": 200, "durationSeconds": 60, "noise": {"deviation": 1}})",
+                     [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; }));
     }
-    void cleanupTestCase() { m_window.reset(); }
 
     void everyChartHasTheMenu_data()
     {
@@ -58,7 +54,7 @@ private slots:
     {
         QWidget &chart = m_window->thresholdPlot();
         const QByteArray svg = saved(chart, "chart.svg");
-        QVERIFY(svg.contains("<svg") && svg.contains("noise.json") && svg.contains("Window length 0.5 s"));
+        QVERIFY(svg.contains("<svg") && svg.contains("scene.json") && svg.contains("Window length 0.5 s"));
         QVERIFY(saved(chart, "chart.pdf").startsWith("%PDF"));
         QVERIFY(saved(chart, "chart.png").startsWith("\x89PNG"));
         QVERIFY(saved(chart, "chart.csv").startsWith("curve,x,y\n\"noise, fitted law\","));
@@ -71,15 +67,15 @@ private slots:
         const auto said = [this](CaptionOf what) {
             return captionOf(m_window->document(), what).section(". Faintline", 0, 0);
         };
-        QCOMPARE(said(CaptionOf::Statistic), QString("noise.json; Spectrogram: Window length 0.5 s"));
+        QCOMPARE(said(CaptionOf::Statistic), QString("scene.json; Spectrogram: Window length 0.5 s"));
         AnalysisSettings settings = m_window->document().settings();
         setSetting(settings, "decide.thresholdNats", "20");
         setSetting(settings, "selection.toSeconds", "30");
         m_window->controller().setSettings(settings, "test");
         QVERIFY(settle(*m_window));
         QCOMPARE(said(CaptionOf::Statistic),
-                 QString("noise.json; Selection: To 30 s; Spectrogram: Window length 0.5 s; Threshold 20 nat"));
-        QCOMPARE(said(CaptionOf::Input), QString("noise.json; Selection: To 30 s; Spectrogram: Window length 0.5 s"));
+                 QString("scene.json; Selection: To 30 s; Spectrogram: Window length 0.5 s; Threshold 20 nat"));
+        QCOMPARE(said(CaptionOf::Input), QString("scene.json; Selection: To 30 s; Spectrogram: Window length 0.5 s"));
     }
 
     void captionsSayThingsOnce()
@@ -121,9 +117,6 @@ private:
         QFile file(path);
         return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
     }
-
-    QTemporaryDir m_folder;
-    std::unique_ptr<MainWindow> m_window;
 };
 
 FAINTLINE_WINDOW_TEST(tst_ChartMenus)

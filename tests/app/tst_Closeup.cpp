@@ -7,12 +7,10 @@ using namespace faintline;
 using namespace faintline::test;
 
 /// Zoomed into a recording whose pictures hold rows of many frames, one sees single frames.
-class tst_Closeup : public QObject
+class tst_Closeup : public WindowTest
 {
     Q_OBJECT
 
-    QTemporaryDir m_folder;
-    std::unique_ptr<MainWindow> m_window;
     std::shared_ptr<const Analysis> m_whole; ///< its rows are frames
 
     static std::shared_ptr<const PeakPyramid> merged(const PeakPyramid &picture)
@@ -48,13 +46,9 @@ class tst_Closeup : public QObject
 private slots:
     void init()
     {
-        const QString scene =
-            writeFile(m_folder, "scene.json",
-                      R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 200, "lines": [{"snrDb": 6,
-               "frequencyHz": 90}]})");
-        m_window = newWindow();
-        QVERIFY(openAndSettle(*m_window, scene,
-                              [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; }));
+        QVERIFY(open(R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 200, "lines": [{"snrDb": 6,
+               "frequencyHz": 90}]})",
+                     [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; }));
         m_whole = m_window->document().analysis();
         QCOMPARE(m_whole->input->framesPerRow(0), Index(1));
     }

@@ -107,21 +107,12 @@ QStringList nameless(QWidget &root)
 
 } // namespace
 
-class tst_Comfort : public QObject
+class tst_Comfort : public WindowTest
 {
     Q_OBJECT
 
-    QTemporaryDir m_folder;
-    std::unique_ptr<MainWindow> m_window;
-
 private slots:
-    void initTestCase()
-    {
-        Theme::apply(Theme::Kind::Light);
-        m_window = newWindow({1280, 800});
-        QVERIFY(openAndSettle(*m_window, writeFile(m_folder, "scene.json", sceneText)));
-    }
-    void cleanupTestCase() { m_window.reset(); }
+    void initTestCase() { QVERIFY(open(sceneText, {}, {1280, 800})); }
 
     void everyWidgetHasAName()
     {

@@ -22,7 +22,7 @@ using namespace faintline;
 using namespace faintline::test;
 
 /// A Doppler pass in the window: a simulated source goes by, its track is fitted, and what is shown is the fit.
-class tst_DopplerPanel : public QObject
+class tst_DopplerPanel : public WindowTest
 {
     Q_OBJECT
 
@@ -30,7 +30,6 @@ private slots:
     /// The phase is f0 times the time of emission, which is found by bisection.
     void initTestCase()
     {
-        Theme::apply(Theme::Kind::Light);
         std::vector<float> samples(std::size_t(length * rate));
         Random(12, 0).normals(samples, 0.1f);
         const double amplitude = 0.1 * std::pow(10.0, 12.0 / 20.0) * 2.0 / std::sqrt(rate);
@@ -50,8 +49,6 @@ private slots:
                               [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; }));
         QVERIFY(!m_window->document().shownEvents().empty());
     }
-
-    void cleanupTestCase() { m_window.reset(); }
 
     void nothingIsFittedWhileNobodyLooks() { QVERIFY(table().rowCount() == 0 && !isBusy(panel())); }
 
@@ -161,9 +158,6 @@ private:
     }
     DopplerPanel &panel() { return m_window->panel<DopplerPanel>(); }
     const QAbstractItemModel &table() { return *childOf<ColumnTable>(panel()).model(); }
-
-    QTemporaryDir m_folder;
-    std::unique_ptr<MainWindow> m_window;
 };
 
 FAINTLINE_WINDOW_TEST(tst_DopplerPanel)

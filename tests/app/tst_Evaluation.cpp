@@ -27,13 +27,12 @@
 using namespace faintline;
 using namespace faintline::test;
 
-class tst_Evaluation : public QObject
+class tst_Evaluation : public WindowTest
 {
     Q_OBJECT
 
 private slots:
     void initTestCase();
-    void cleanupTestCase() { m_window.reset(); }
 
     void anExperimentGrowsAndEnds();
     void aPointOpensItsTrials();
@@ -60,9 +59,6 @@ private:
     {
         m_window->panel<EvaluatePanel>().form().setQuick(runs, {"3 of 4", "integrator"}, {0.0, 3.0});
     }
-
-    QTemporaryDir m_folder;
-    std::unique_ptr<MainWindow> m_window;
 };
 
 void tst_Evaluation::initTestCase()

@@ -26,14 +26,10 @@
 using namespace faintline;
 using namespace faintline::test;
 
-class tst_EventReviews : public QObject
+class tst_EventReviews : public WindowTest
 {
     Q_OBJECT
 
-    QTemporaryDir m_folder;
-    std::unique_ptr<MainWindow> m_window;
-
-    Document &document() const { return m_window->document(); }
     std::vector<Verdict> verdicts() const
     {
         std::vector<Verdict> result;
@@ -63,14 +59,11 @@ class tst_EventReviews : public QObject
 private slots:
     void initTestCase() // opened once: every test leaves it as it was
     {
-        Theme::apply(Theme::Kind::Light);
-        const QString scene = writeFile(m_folder, "scene.json",
-                                        R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
+        QVERIFY(open(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
             {"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 5, "durationSeconds": 40, "frequencyHz": 120,
             "driftHzPerSecond": 1},
-            {"snrDb": 7, "referenceSeconds": 0.5, "startSeconds": 20, "durationSeconds": 30, "frequencyHz": 350}]})");
-        m_window = newWindow({1440, 900});
-        QVERIFY(openAndSettle(*m_window, scene));
+            {"snrDb": 7, "referenceSeconds": 0.5, "startSeconds": 20, "durationSeconds": 30, "frequencyHz": 350}]})",
+                     {}, {1440, 900}));
         QVERIFY(document().shownEvents().size() >= 2);
     }
     void cleanup()
@@ -81,7 +74,6 @@ private slots:
         document().undoStack().clear();
         QVERIFY(settle(*m_window));
     }
-    void cleanupTestCase() { m_window.reset(); }
 
     void oneKeyEach()
     {

@@ -27,30 +27,25 @@ static QString noteOf(const WaterfallView &view)
     return itemOf<OverlayItem>(view).cursorNote;
 }
 
-class tst_FamilyViews : public QObject
+class tst_FamilyViews : public WindowTest
 {
     Q_OBJECT
 
 private slots:
     void initTestCase()
     {
-        Theme::apply(Theme::Kind::Light);
-        const QString scene = writeFile(m_folder, "scene.json",
-                                        R"({"kind": "lines", "sampleRateHz": 800, "durationSeconds": 40, "lines": [
+        QVERIFY(open(R"({"kind": "lines", "sampleRateHz": 800, "durationSeconds": 40, "lines": [
         {"snrDb": 8, "referenceSeconds": 1, "frequencyHz": 57.3},
         {"snrDb": 8, "referenceSeconds": 1, "frequencyHz": 114.6},
         {"snrDb": 8, "referenceSeconds": 1, "frequencyHz": 229.2},
-        {"snrDb": 8, "referenceSeconds": 1, "frequencyHz": 286.5}]})");
-        m_window = newWindow();
-        QVERIFY(openAndSettle(*m_window, scene, [](AnalysisSettings &settings) {
-            settings.spectrogram.windowSeconds = 1.0;
-            settings.family = {FamilySettings::Relation::Harmonics, {1.0, 2.0, 3.0, 4.0, 5.0}};
-        }));
+        {"snrDb": 8, "referenceSeconds": 1, "frequencyHz": 286.5}]})",
+                     [](AnalysisSettings &settings) {
+                         settings.spectrogram.windowSeconds = 1.0;
+                         settings.family = {FamilySettings::Relation::Harmonics, {1.0, 2.0, 3.0, 4.0, 5.0}};
+                     }));
         QCOMPARE(m_window->document().shownEvents().size(), std::size_t(1));
         QVERIFY(std::abs(m_window->document().viewport().cursor().value().hz - fundamental) < 0.3);
     }
-
-    void cleanupTestCase() { m_window.reset(); }
 
     void theAxisIsTheFundamentals()
     {
@@ -149,9 +144,6 @@ private slots:
 
 private:
     static constexpr double fundamental = 57.3;
-
-    QTemporaryDir m_folder;
-    std::unique_ptr<MainWindow> m_window;
 };
 
 FAINTLINE_WINDOW_TEST(tst_FamilyViews)

@@ -18,20 +18,16 @@
 using namespace faintline;
 using namespace faintline::test;
 
-class tst_HandLine : public QObject
+class tst_HandLine : public WindowTest
 {
     Q_OBJECT
 
 private slots:
     void initTestCase()
     {
-        Theme::apply(Theme::Kind::Light);
-        const QString scene = writeFile(m_folder, "scene.json",
-                                        R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
+        QVERIFY(open(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
         {"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 5, "durationSeconds": 50, "frequencyHz": 120,
-        "driftHzPerSecond": 2}]})");
-        m_window = newWindow();
-        QVERIFY(openAndSettle(*m_window, scene));
+        "driftHzPerSecond": 2}]})"));
         QVERIFY(!m_window->document().analysis()->tracks.empty());
         QTest::keyClick(m_window.get(), Qt::Key_D, Qt::ControlModifier);
         QVERIFY(panel().isVisible());
@@ -42,8 +38,6 @@ private slots:
         panel().line().clear();
         buttonOf(panel(), "Draw")->setChecked(true);
     }
-
-    void cleanupTestCase() { m_window.reset(); }
 
     void pointsAreMadeMovedAndTakenAway()
     {
@@ -142,7 +136,6 @@ private slots:
 
 private:
     QPoint at(double seconds, double hz) const { return input().positionOf({seconds, hz}).toPoint(); }
-    WaterfallView &input() const { return *m_window->workbench().input(); }
     HandLinePanel &panel() const { return m_window->panel<HandLinePanel>(); }
     bool isSettled() const { return !isBusy(panel()) && rows().rowCount() == 3; }
     const QAbstractItemModel &rows() const { return *childOf<ColumnTable>(panel()).model(); }
@@ -155,9 +148,6 @@ private:
             line.push_back({point.seconds, point.hz});
         return HandLinePanel::compare(m_window->document().analysis(), line);
     }
-
-    QTemporaryDir m_folder;
-    std::unique_ptr<MainWindow> m_window;
 };
 
 FAINTLINE_WINDOW_TEST(tst_HandLine)

@@ -17,25 +17,20 @@
 using namespace faintline;
 using namespace faintline::test;
 
-class tst_MainSettings : public QObject
+class tst_MainSettings : public WindowTest
 {
     Q_OBJECT
 
 private slots:
     void initTestCase()
     {
-        Theme::apply(Theme::Kind::Light);
-        m_window = newWindow({1280, 776}); // a screen of 1280 × 800 with a window's title bar
-        QVERIFY(
-            openAndSettle(*m_window,
-                          writeFile(m_folder, "scene.json",
-                                    R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": []})"),
-                          [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; }));
+        constexpr QSize room(1280, 776); // a screen of 1280 × 800 with a window's title bar
+        QVERIFY(open(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": []})",
+                     [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; }, room));
         m_main = m_window->findChild<ThresholdPanel *>()->findChild<MainSettings *>();
         QVERIFY(m_main);
         QVERIFY(QTest::qWaitFor([&] { return m_main->isVisible(); }));
     }
-    void cleanupTestCase() { m_window.reset(); }
 
     void theFiveAreThereAndThePlotHasRoom()
     {
@@ -142,8 +137,6 @@ private:
         QTest::keyClick(line(name), Qt::Key_Return);
     }
 
-    QTemporaryDir m_folder;
-    std::unique_ptr<MainWindow> m_window;
     MainSettings *m_main = nullptr;
 };
 

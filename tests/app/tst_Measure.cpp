@@ -21,16 +21,9 @@ static QString boxText(const WaterfallView &view)
     return itemOf<OverlayItem>(view).selectionText;
 }
 
-class tst_Measure : public QObject
+class tst_Measure : public WindowTest
 {
     Q_OBJECT
-
-    QTemporaryDir m_folder;
-    std::unique_ptr<MainWindow> m_window;
-
-    WaterfallView &input() { return *m_window->workbench().input(); }
-    WaterfallView &output() { return *m_window->workbench().output(); }
-    Viewport &viewport() { return m_window->document().viewport(); }
 
     static void drag(WaterfallView &view, const Viewport::Point &from, const Viewport::Point &to)
     {
@@ -57,18 +50,13 @@ class tst_Measure : public QObject
 private slots:
     void initTestCase()
     {
-        Theme::apply(Theme::Kind::Light);
-        const QString scene =
-            writeFile(m_folder, "scene.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60,
-                       "lines": [{"frequencyHz": 150, "snrDb": 10, "referenceSeconds": 0.5}]})");
-        m_window = newWindow({1280, 800});
-        QVERIFY(openAndSettle(*m_window, scene,
-                              [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; }));
+        QVERIFY(open(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60,
+                       "lines": [{"frequencyHz": 150, "snrDb": 10, "referenceSeconds": 0.5}]})",
+                     [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; }, {1280, 800}));
         m_window->activateWindow();
         input().setFocus();
         QVERIFY(QTest::qWaitForWindowActive(m_window.get()));
     }
-    void cleanupTestCase() { m_window.reset(); }
 
     void aBoxTellsItsAreaSnr()
     {

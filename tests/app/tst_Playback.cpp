@@ -23,13 +23,12 @@ using namespace faintline;
 using namespace faintline::test;
 
 /// Play, in the window: what is heard is what was chosen, and the cursor is where the sound is.
-class tst_Playback : public QObject
+class tst_Playback : public WindowTest
 {
     Q_OBJECT
 
 private slots:
     void initTestCase();
-    void cleanupTestCase() { m_window.reset(); }
 
     void withoutDeviceTheCursorMoves_data();
     void withoutDeviceTheCursorMoves();
@@ -39,16 +38,13 @@ private slots:
     void startsAgainWhereTheCursorIsPut();
 
 private:
-    Viewport &viewport() const { return m_window->document().viewport(); }
     double cursor() const { return viewport().cursor()->seconds; }
     void pressSpace() { QTest::keyClick(m_window->workbench().output(), Qt::Key_Space); }
     Playback &playback() const { return *m_window->findChild<Playback *>(); }
     void choose(const QString &text) const;
     bool hasServer();
 
-    QTemporaryDir m_folder;
     std::unique_ptr<PulseServer> m_server;
-    std::unique_ptr<MainWindow> m_window;
 };
 
 namespace {

@@ -37,14 +37,10 @@ const char *const scene = R"({"kind": "pings", "pings": 20, "priSeconds": 2, "ra
 
 } // namespace
 
-class tst_ScanBench : public QObject
+class tst_ScanBench : public WindowTest
 {
     Q_OBJECT
 
-    QTemporaryDir m_folder;
-    std::unique_ptr<MainWindow> m_window;
-
-    QString path(const QString &name) const { return m_folder.filePath(name); }
     PingBench &bench() const { return m_window->pingBench(); }
     const Analysis &analysis() const { return *m_window->document().analysis(); }
     AxesBar &bar() const { return *bench().findChild<AxesBar *>(); }
@@ -79,11 +75,7 @@ class tst_ScanBench : public QObject
     }
 
 private slots:
-    void initTestCase()
-    {
-        Theme::apply(Theme::Kind::Light);
-        writeFile(m_folder, "scans.json", scene);
-    }
+    void initTestCase() { writeFile(m_folder, "scans.json", scene); }
 
     void init()
     {

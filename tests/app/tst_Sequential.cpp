@@ -51,13 +51,11 @@ ScanTest smallTest()
 
 } // namespace
 
-class tst_Sequential : public QObject
+class tst_Sequential : public WindowTest
 {
     Q_OBJECT
 
 private slots:
-    void initTestCase() { Theme::apply(Theme::Kind::Light); }
-
     void init() { m_window = newWindow(); }
 
     void cleanup() { m_window.reset(); }
@@ -431,9 +429,6 @@ private:
         QVERIFY(openAndSettle(*m_window, scene));
         QVERIFY(m_window->document().analysis());
     }
-
-    QTemporaryDir m_folder;
-    std::unique_ptr<MainWindow> m_window;
 };
 
 FAINTLINE_WINDOW_TEST(tst_Sequential)

@@ -49,13 +49,11 @@ void dragBar(LawPlot &plot, int change, double by, bool isLetGo = true)
 
 } // namespace
 
-class tst_StateSpace : public QObject
+class tst_StateSpace : public WindowTest
 {
     Q_OBJECT
 
-    QTemporaryDir m_folder;
     QString m_scene;
-    std::unique_ptr<MainWindow> m_window;
 
     LawPlot &law() { return *m_window->panel<StateSlicePanel>().law().plot(0); }
     const std::vector<double> &setting() { return m_window->document().settings().model.slopeChange; }
@@ -63,7 +61,6 @@ class tst_StateSpace : public QObject
 private slots:
     void initTestCase()
     {
-        Theme::apply(Theme::Kind::Light);
         m_scene = writeFile(m_folder, "line.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 40,
             "lines": [{"snrDb": 9, "frequencyHz": 200, "driftHzPerSecond": 0.5}]})");
     }

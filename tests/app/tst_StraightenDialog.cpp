@@ -21,14 +21,13 @@ using namespace faintline;
 using namespace faintline::test;
 
 /// A recording straightened from the window: the spectra before and after, and the command line's file.
-class tst_StraightenDialog : public QObject
+class tst_StraightenDialog : public WindowTest
 {
     Q_OBJECT
 
 private slots:
     void initTestCase()
     {
-        Theme::apply(Theme::Kind::Light);
         LineScene scene;
         scene.sampleRateHz = 500.0;
         scene.durationSeconds = 60.0;
@@ -45,8 +44,6 @@ private slots:
                               [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; }));
         QCOMPARE(m_window->document().shownEvents().size(), std::size_t(1));
     }
-
-    void cleanupTestCase() { m_window.reset(); }
 
     void showsTheLineBeforeAndAfter()
     {
@@ -150,9 +147,7 @@ private slots:
 private:
     StraightenDialog *dialog() const { return m_window->findChild<StraightenDialog *>(); }
 
-    QTemporaryDir m_folder;
     QString m_path;
-    std::unique_ptr<MainWindow> m_window;
 };
 
 FAINTLINE_WINDOW_TEST(tst_StraightenDialog)

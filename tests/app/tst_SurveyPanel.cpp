@@ -24,12 +24,10 @@
 using namespace faintline;
 using namespace faintline::test;
 
-class tst_SurveyPanel : public QObject
+class tst_SurveyPanel : public WindowTest
 {
     Q_OBJECT
 
-    QTemporaryDir m_folder;
-    std::unique_ptr<MainWindow> m_window;
     SurveySettings m_settings;
 
     std::string path(const char *name) const { return m_folder.filePath(name).toStdString(); }
@@ -54,7 +52,6 @@ class tst_SurveyPanel : public QObject
 private slots:
     void initTestCase()
     {
-        Theme::apply(Theme::Kind::Light);
         simulate("a.wav", 120.0);
         simulate("b.wav", 240.0);
         writeBytes(path("c.wav"), "no sound");
@@ -64,7 +61,6 @@ private slots:
         m_window = newWindow({1440, 900});
         QVERIFY(openSurvey("s.sqlite"));
     }
-    void cleanupTestCase() { m_window.reset(); }
 
     void isATableOfAllEvents()
     {

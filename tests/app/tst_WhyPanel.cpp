@@ -20,24 +20,18 @@ static const ColumnTable &ladderOf(const WhyPanel &why)
     return childOf<ColumnTable>(why, "The best path, newest step first");
 }
 
-class tst_WhyPanel : public QObject
+class tst_WhyPanel : public WindowTest
 {
     Q_OBJECT
 
 private slots:
     void initTestCase()
     {
-        Theme::apply(Theme::Kind::Light);
-        const QString scene = writeFile(m_folder, "scene.json",
-                                        R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
-        {"snrDb": 6, "referenceSeconds": 0.5, "startSeconds": 20, "durationSeconds": 30, "frequencyHz": 120}]})");
-        m_window = newWindow();
-        QVERIFY(openAndSettle(*m_window, scene));
+        QVERIFY(open(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
+        {"snrDb": 6, "referenceSeconds": 0.5, "startSeconds": 20, "durationSeconds": 30, "frequencyHz": 120}]})"));
         QTest::keyClick(m_window.get(), Qt::Key_W);
         QVERIFY(m_window->panel<WhyPanel>().isVisible());
     }
-
-    void cleanupTestCase() { m_window.reset(); }
 
     void termsAddUp_data()
     {
@@ -143,9 +137,6 @@ private:
         m_window->document().viewport().setCursor({seconds, hz});
         QVERIFY(settle(m_window->panel<WhyPanel>()));
     }
-
-    QTemporaryDir m_folder;
-    std::unique_ptr<MainWindow> m_window;
 };
 
 FAINTLINE_WINDOW_TEST(tst_WhyPanel)

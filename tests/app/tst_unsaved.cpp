@@ -13,7 +13,7 @@
 using namespace faintline;
 using namespace faintline::test;
 
-class tst_unsaved : public QObject
+class tst_unsaved : public WindowTest
 {
     Q_OBJECT
 
@@ -150,9 +150,7 @@ private:
     }
     QString recording() const { return m_window->document().sourceName(); }
 
-    QTemporaryDir m_folder;
     QString m_scene, m_other, m_lesson, m_second;
-    std::unique_ptr<MainWindow> m_window;
     int m_questions = 0;
     QString m_words;
     bool m_isSaveOffered = false;

@@ -27,10 +27,18 @@ Grid grid()
     return {{rangeAxis, bearingAxis}};
 }
 
-void setExtents(Viewport &viewport)
-{
-    viewport.setExtents({995.0, 1495.0}, {-22.5, 337.5}, 40.0, 90.0);
-}
+/// A map that is seen, of a ping with one bright cell.
+struct ShownMap {
+    ShownMap()
+    {
+        viewport.setExtents({995.0, 1495.0}, {-22.5, 337.5}, 40.0, 90.0);
+        map.setPicture(pingPicture(10, 3), bearingAxis);
+        test::show(map, {500, 400});
+    }
+
+    Viewport viewport;
+    PingMap map{"Statistic", viewport};
+};
 
 Track track(int id, std::vector<std::pair<Index, Index>> cells, Index first = 0)
 {
@@ -203,11 +211,8 @@ private slots:
 
     void keyPLooksFromAboveAndBack()
     {
-        Viewport viewport;
-        setExtents(viewport);
-        PingMap map("Statistic", viewport);
-        map.setPicture(pingPicture(10, 3), grid().axes[1]);
-        test::show(map, {500, 400});
+        ShownMap shown;
+        PingMap &map = shown.map;
         QSignalSpy changed(&map, &PingMap::polarChanged);
         QTest::keyClick(map.plane(), Qt::Key_P);
         QVERIFY(map.isPolar());
@@ -221,13 +226,11 @@ private slots:
 
     void fromAboveAClickFindsItsCell()
     {
-        Viewport viewport;
-        setExtents(viewport);
-        PingMap map("Statistic", viewport);
-        map.setPicture(pingPicture(10, 3), grid().axes[1]);
-        map.setPolar(true);
-        test::show(map, {500, 400});
-        PolarView &polar = *map.polar();
+        ShownMap shown;
+        const Viewport &viewport = shown.viewport;
+        shown.map.setPolar(true);
+        QCoreApplication::processEvents();
+        PolarView &polar = *shown.map.polar();
         const QPointF at = polar.positionOf({1250.0, 225.0});
         QTest::mouseClick(polar.canvas(), Qt::LeftButton, {}, at.toPoint());
         QVERIFY(viewport.cursor());
@@ -246,23 +249,17 @@ private slots:
 
     void thePlaneIsLabelledByItsAxes()
     {
-        Viewport viewport;
-        setExtents(viewport);
-        PingMap map("Input", viewport);
-        map.resize(500, 400);
-        map.setPicture(pingPicture(10, 3), grid().axes[1]);
-        QCOMPARE(map.plane()->axisTitle(QwtAxis::YLeft).text(), "Range (m)");
-        QCOMPARE(map.plane()->axisTitle(QwtAxis::XBottom).text(), "Bearing (°)");
-        QCOMPARE(*map.plane()->valueAt(1100.0, 135.0), 30.0);
+        const ShownMap shown;
+        const WaterfallView &plane = *shown.map.plane();
+        QCOMPARE(plane.axisTitle(QwtAxis::YLeft).text(), "Range (m)");
+        QCOMPARE(plane.axisTitle(QwtAxis::XBottom).text(), "Bearing (°)");
+        QCOMPARE(*plane.valueAt(1100.0, 135.0), 30.0);
     }
 
     void theNextPingKeepsItsColours()
     {
-        Viewport viewport;
-        setExtents(viewport);
-        PingMap map("Statistic", viewport);
-        map.setPicture(pingPicture(10, 3), grid().axes[1]);
-        test::show(map, {500, 400});
+        ShownMap shown;
+        PingMap &map = shown.map;
         const Span range = map.plane()->range();
         std::vector<float> louder(std::size_t(ranges * beams));
         for (std::size_t i = 0; i < louder.size(); ++i)
@@ -277,11 +274,8 @@ private slots:
 
     void marksChangePixelsInBothViews()
     {
-        Viewport viewport;
-        setExtents(viewport);
-        PingMap map("Statistic", viewport);
-        map.setPicture(pingPicture(10, 3), grid().axes[1]);
-        test::show(map, {500, 400});
+        ShownMap shown;
+        PingMap &map = shown.map;
         const PingMarks marks = pingMarks(sixPings(), {track(1, {{20, 6}, {24, 7}, {28, 0}, {32, 1}})}, {}, 3);
         for (const bool isPolar : {false, true}) {
             map.setPolar(isPolar);
