@@ -186,4 +186,15 @@ void Recording::fill(Index first, Index count, std::span<float> out,
         m_nonFiniteCount.fetch_add(found, std::memory_order_relaxed);
 }
 
+void Recording::fillStored(Index first, Index count, std::span<float> out,
+                           const std::function<void(Index stored, std::span<float> out)> &fetch) const
+{
+    fill(first, count, out, [&](Index from, std::span<float> inside) {
+        if (m_info.places.hasGaps())
+            m_info.places.read(from, m_info.floatsPerSample(), inside, fetch);
+        else
+            fetch(from, inside);
+    });
+}
+
 } // namespace faintline

@@ -95,6 +95,11 @@ protected:
     void fill(Index first, Index count, std::span<float> out,
               const std::function<void(Index first, std::span<float> out)> &fetch) const;
 
+    /// The same for recordings with gaps: `fetch(stored, out)` reads samples of the file, of which m_info.places says
+    /// where they are in time.
+    void fillStored(Index first, Index count, std::span<float> out,
+                    const std::function<void(Index stored, std::span<float> out)> &fetch) const;
+
     std::vector<Index> nonFiniteIn(int channel, Index first, Index count) const;
     /// Implementation of isFinite for samples that do not change: reads blocks, each once.
     bool isFiniteByReading(int channel, Index first, Index count) const;

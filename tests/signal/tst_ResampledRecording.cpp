@@ -15,8 +15,8 @@ using test::amplitudeAt;
 
 namespace {
 
-constexpr double rate = 2000.0;
-constexpr Index count = 60000;
+constexpr double resampledRate = 2000.0;
+constexpr Index resampledCount = 60000;
 
 /// Turns of a fundamental of 60 + 0.4 t + 2 sin(2π t/7) Hz at t seconds.
 double cyclesAt(double t)
@@ -38,14 +38,14 @@ FrequencyCurve curve()
 RecordingPointer made(bool isComplex, const std::function<std::complex<double>(double)> &at)
 {
     const auto samples = std::make_shared<std::vector<float>>();
-    for (Index n = 0; n < count; ++n) {
-        const std::complex<double> value = at(double(n) / rate);
+    for (Index n = 0; n < resampledCount; ++n) {
+        const std::complex<double> value = at(double(n) / resampledRate);
         samples->push_back(float(value.real()));
         if (isComplex)
             samples->push_back(float(value.imag()));
     }
     return std::make_shared<ArrayRecording>("family", std::shared_ptr<const float>(samples, samples->data()),
-                                            ArrayLayout{rate, count, 1, isComplex, 0.0});
+                                            ArrayLayout{resampledRate, resampledCount, 1, isComplex, 0.0});
 }
 
 /// Equal multiples 1, 2, 5 and 10.
@@ -69,7 +69,7 @@ double meanPower(const Recording &recording, Index first, Index length)
     return sum / double(length);
 }
 
-double db(double ratio)
+double decibels(double ratio)
 {
     return 10.0 * std::log10(ratio);
 }
@@ -100,7 +100,7 @@ private slots:
         QVERIFY(straight.info().sampleCount > first + length);
         for (const double multiple : {1.0, 2.0, 5.0, 10.0}) {
             const double amplitude = amplitudeAt(straight, multiple * target, first, length);
-            QVERIFY2(std::abs(2.0 * db(amplitude)) < 0.1, qPrintable(QString::number(amplitude)));
+            QVERIFY2(std::abs(2.0 * decibels(amplitude)) < 0.1, qPrintable(QString::number(amplitude)));
             QVERIFY(amplitudeAt(*base, multiple * target, first, length) < 0.4);
         }
     }
@@ -121,7 +121,7 @@ private slots:
             made(false, [hz](double t) { return std::polar(1.0, 2.0 * std::numbers::pi * hz * t); });
         const FrequencyCurve swing({"time", "s", 0.0, 10.0, 4, false}, {49.5, 50.5, 49.5, 50.5});
         const double power = meanPower(ResampledRecording(tone, 0, swing, 50.0), 2000, 56000);
-        QVERIFY2(std::abs(db(power / 0.5)) < 0.1, qPrintable(QString::number(db(power / 0.5))));
+        QVERIFY2(std::abs(decibels(power / 0.5)) < 0.1, qPrintable(QString::number(decibels(power / 0.5))));
     }
 
     /// Where time runs twice as fast, what lay above half of half the rate has no place, and is not folded to another.
@@ -132,7 +132,8 @@ private slots:
             const RecordingPointer tone =
                 made(false, [hz](double t) { return std::polar(1.0, 2.0 * std::numbers::pi * hz * t); });
             const double power = meanPower(ResampledRecording(tone, 0, constant, 100.0), 1000, 28000);
-            QVERIFY2(db(power / 0.5) < -80.0, qPrintable(QStringLiteral("%1 Hz: %2 dB").arg(hz).arg(db(power / 0.5))));
+            QVERIFY2(decibels(power / 0.5) < -80.0,
+                     qPrintable(QStringLiteral("%1 Hz: %2 dB").arg(hz).arg(decibels(power / 0.5))));
         }
         const RecordingPointer tone =
             made(false, [](double t) { return std::polar(1.0, 2.0 * std::numbers::pi * 200.0 * t); });
@@ -150,8 +151,8 @@ private slots:
         straight.read(0, 0, straight.info().sampleCount, samples);
         const auto at =
             std::find_if(samples.begin(), samples.end(), [](float x) { return x > 0.5f; }) - samples.begin();
-        QVERIFY(std::abs(double(at) / rate - expected) < 2.0 / rate);
-        QCOMPARE(straight.info().sampleCount, Index(std::floor(straight.secondsOf(30.0) * rate)));
+        QVERIFY(std::abs(double(at) / resampledRate - expected) < 2.0 / resampledRate);
+        QCOMPARE(straight.info().sampleCount, Index(std::floor(straight.secondsOf(30.0) * resampledRate)));
     }
 
     void doesNotDependOnHowItIsRead()

@@ -3,10 +3,10 @@
 #include "base/Error.h"
 #include "base/files/fileName.h"
 #include "exchange/survey/surveySchema.h"
+#include "signal/formats/bytes.h"
 
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <map>
 #include <string_view>
@@ -86,11 +86,9 @@ void SurveyDatabase::checkHeader()
     std::array<std::byte, 72> header{};
     const std::size_t bytes = m_database.readBeginning(header);
     constexpr std::string_view magic("SQLite format 3\0", 16);
-    if (bytes > 0 && std::memcmp(header.data(), magic.data(), magic.size()) != 0)
+    if (bytes > 0 && !asText(header).starts_with(magic))
         throw Error(path(), "is not an SQLite database");
-    std::int64_t applicationId = 0;
-    for (std::size_t i = 68; i < 72; ++i)
-        applicationId = applicationId << 8 | std::to_integer<int>(header[i]);
+    const auto applicationId = std::int64_t(bigEndian(std::span(header).last(4)));
     const bool hasLog = header[18] != std::byte(1) || header[19] != std::byte(1);
     if (bytes < header.size() || hasLog || applicationId != surveyApplicationId)
         throw Error(path(), "is not a survey; 'faintline-cli survey' creates surveys");

@@ -1,7 +1,8 @@
 #include "live/sources/PipeSource.h"
 
 #include "base/Error.h"
-#include "signal/formats/listChunk.h"
+#include "signal/formats/bytes.h"
+#include "signal/formats/riffChunks.h"
 
 #include <algorithm>
 #include <array>
@@ -108,16 +109,7 @@ namespace {
 
     std::uint32_t number(std::span<const std::byte> bytes, std::size_t at, std::size_t count)
     {
-        std::uint32_t value = 0;
-        for (std::size_t i = count; i-- > 0;)
-            value = value << 8 | std::to_integer<std::uint32_t>(bytes[at + i]);
-        return value;
-    }
-
-    bool isTag(std::span<const std::byte> bytes, std::size_t at, std::string_view tag)
-    {
-        return std::equal(tag.begin(), tag.end(), bytes.begin() + std::ptrdiff_t(at),
-                          [](char c, std::byte b) { return static_cast<char>(b) == c; });
+        return std::uint32_t(littleEndian(bytes.subspan(at, count)));
     }
 
     /// Whether a length stands for an unknown one: programs that write to a pipe give the largest their numbers hold.
@@ -168,18 +160,18 @@ WavHeader readWavHeader(const std::function<bool(std::span<std::byte>)> &read, c
         if (!read(bytes))
             throw Error(where, std::string("ended within its header; ") + accepted);
     };
-    std::array<std::byte, 12> riff{};
+    std::array<std::byte, riffHeadBytes> riff{};
     fetch(riff);
-    if (!(isTag(riff, 0, "RIFF") || isTag(riff, 0, "RF64")) || !isTag(riff, 8, "WAVE"))
+    if (!(asText(riff).starts_with("RIFF") || asText(riff).starts_with("RF64")) || !asText(riff).ends_with("WAVE"))
         throw Error(where, std::string("does not begin as a WAV file; ") + accepted);
-    const bool isRf64 = isTag(riff, 0, "RF64");
+    const bool isRf64 = asText(riff).starts_with("RF64");
     Index longDataBytes = 0;
     WavHeader header;
     bool isKnown = false;
     for (int chunk = 0; chunk < mostChunks; ++chunk) {
-        std::array<std::byte, 8> head{};
+        std::array<std::byte, chunkHeadBytes> head{};
         fetch(head);
-        if (isTag(head, 0, "data")) {
+        if (asText(head).starts_with("data")) {
             if (!isKnown)
                 throw Error(where, std::string("its WAV header has no format; ") + accepted);
             header.isRf64 = isRf64;
@@ -192,9 +184,9 @@ WavHeader readWavHeader(const std::function<bool(std::span<std::byte>)> &read, c
         for (; rest > 0; rest -= content.size()) {
             content.resize(std::min(rest, content.size()));
             fetch(content);
-            if (isTag(head, 0, "ds64") && content.size() >= 16)
-                longDataBytes = Index(number(content, 12, 4) & 0x7fffffff) << 32 | number(content, 8, 4);
-            if (isTag(head, 0, "fmt ") && !isKnown) {
+            if (asText(head).starts_with("ds64") && content.size() >= 16)
+                longDataBytes = Index(littleEndian(std::span(content).subspan(8, 8)) & ~(std::uint64_t(1) << 63));
+            if (asText(head).starts_with("fmt ") && !isKnown) {
                 header = headerOf(content, where);
                 isKnown = true;
             }

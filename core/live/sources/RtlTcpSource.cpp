@@ -1,13 +1,13 @@
 #include "live/sources/RtlTcpSource.h"
 
 #include "base/Error.h"
+#include "signal/formats/bytes.h"
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -65,11 +65,8 @@ bool RtlTcpSource::connect(std::chrono::milliseconds patience, std::string &reas
     m_socket = connectTcp(m_address, patience, reason);
     if (m_socket < 0)
         return false;
-    constexpr std::string_view magic = "RTL0";
     std::array<std::byte, 12> greeting{}; // "RTL0", tuner type, number of gains
-    const bool isRtl = readWhole(m_socket, greeting, patience)
-                       && std::equal(magic.begin(), magic.end(), greeting.begin(),
-                                     [](char c, std::byte b) { return static_cast<char>(b) == c; });
+    const bool isRtl = readWhole(m_socket, greeting, patience) && asText(greeting).starts_with("RTL0");
     if (isRtl && sendAll())
         return true;
     reason = isRtl ? "it takes no commands" : "it does not identify itself as rtl_tcp";

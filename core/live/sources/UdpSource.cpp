@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "live/sources/sockets.h"
+#include "signal/formats/bytes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -104,10 +105,8 @@ bool UdpSource::receive(Heard &heard)
     Index lost = 0;
     m_isLate = false;
     if (m_numbers.bytes > 0) {
-        std::uint64_t number = 0;
-        for (std::size_t i = 0; i < header; ++i)
-            number = number << 8 | std::to_integer<std::uint64_t>(bytes[m_numbers.isBigEndian ? i : header - 1 - i]);
-        lost = lostBefore(number, samples);
+        const auto number = m_numbers.isBigEndian ? bigEndian : littleEndian;
+        lost = lostBefore(number(bytes.first(header)), samples);
     } else if (m_isGone) {
         lost = std::max<Index>(0, std::llround(secondsSince(*m_last) * m_format.sampleRateHz) - samples);
     } else {

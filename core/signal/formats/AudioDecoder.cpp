@@ -1,7 +1,8 @@
 #include "signal/formats/AudioDecoder.h"
 
 #include "base/Error.h"
-#include "signal/formats/listChunk.h"
+#include "signal/formats/bytes.h"
+#include "signal/formats/riffChunks.h"
 
 #include <algorithm>
 #include <array>
@@ -15,14 +16,6 @@ namespace {
 
     constexpr Index fourGiB = Index(1) << 32; ///< where a length in 32 bits begins anew
 
-    std::uint64_t riffNumber(std::span<const std::byte> bytes)
-    {
-        std::uint64_t value = 0;
-        for (std::size_t i = bytes.size(); i-- > 0;)
-            value = value << 8 | std::uint64_t(bytes[i]);
-        return value;
-    }
-
     void append(std::vector<std::byte> &bytes, std::string_view name, std::uint64_t value, int valueBytes)
     {
         for (const char c : name)
@@ -31,27 +24,15 @@ namespace {
             bytes.push_back(std::byte(value >> (8 * i) & 0xff));
     }
 
-    /// A chunk of a WAV file: its name, and where its content lies.
-    struct WavChunk {
-        std::string name;
-        Index offset = 0;
-        Index length = 0;
-    };
-
     /// The header of a WAV file (RIFF or RF64) as its bytes tell it, independently of libsndfile.
     class WavChunks
     {
     public:
         explicit WavChunks(const FileBytes &file) : m_file(file)
         {
-            constexpr Index fileHeadBytes = 12;
-            std::array<std::byte, fileHeadBytes> head;
-            if (file.readAt(0, head) < head.size())
-                return;
-            const std::string_view text(reinterpret_cast<const char *>(head.data()), head.size());
-            m_isRf64 = text.starts_with("RF64");
-            if ((m_isRf64 || text.starts_with("RIFF")) && text.ends_with("WAVE"))
-                walk(fileHeadBytes);
+            m_isRf64 = isWave(file, "RF64");
+            if (m_isRf64 || isWave(file, "RIFF"))
+                walk(riffHeadBytes);
         }
 
         bool isComplete() const { return m_data.offset > 0 && find("fmt "); }
@@ -80,7 +61,7 @@ namespace {
         {
             constexpr Index chunkLimitBytes = Index(1) << 20;
             std::vector<std::byte> kept;
-            for (const WavChunk &chunk : m_chunks) {
+            for (const RiffChunk &chunk : m_chunks) {
                 const bool isList = chunk.name == "LIST" || chunk.name == "INFO";
                 if (std::find(names.begin(), names.end(), chunk.name) == names.end() || chunk.length > chunkLimitBytes
                     || (isList && leadsBackwards(m_file, chunk.offset - chunkHeadBytes)))
@@ -114,7 +95,7 @@ namespace {
         std::string others(std::span<const std::string_view> names) const
         {
             std::string text;
-            for (const WavChunk &chunk : m_chunks)
+            for (const RiffChunk &chunk : m_chunks)
                 if (std::find(names.begin(), names.end(), chunk.name) == names.end() && chunk.name != "ds64")
                     text += (text.empty() ? "" : ", ") + chunk.name;
             return text;
@@ -123,39 +104,35 @@ namespace {
         bool isRiff() const { return !m_isRf64; }
 
     private:
-        const WavChunk *find(std::string_view name) const
+        const RiffChunk *find(std::string_view name) const
         {
             const auto found = std::find_if(m_chunks.begin(), m_chunks.end(),
-                                            [&](const WavChunk &chunk) { return chunk.name == name; });
+                                            [&](const RiffChunk &chunk) { return chunk.name == name; });
             return found == m_chunks.end() ? nullptr : &*found;
         }
 
-        bool readHead(Index offset, WavChunk &chunk) const
+        /// A chunk with a printable name.
+        std::optional<RiffChunk> chunkAt(Index offset) const
         {
-            std::array<std::byte, chunkHeadBytes> head;
-            if (m_file.readAt(offset, head) < head.size())
-                return false;
-            chunk.name.assign(reinterpret_cast<const char *>(head.data()), 4);
-            chunk.offset = offset + chunkHeadBytes;
-            chunk.length = Index(riffNumber(std::span(head).last(4)));
-            return std::all_of(chunk.name.begin(), chunk.name.end(), [](char c) { return c >= ' ' && c <= '~'; });
+            std::optional<RiffChunk> chunk = riffChunkAt(m_file, offset);
+            const auto isPrintable = [](char c) { return c >= ' ' && c <= '~'; };
+            return chunk && std::ranges::all_of(chunk->name, isPrintable) ? chunk : std::nullopt;
         }
 
         void walk(Index offset)
         {
             constexpr int mostChunks = 1000;
-            WavChunk chunk;
-            for (int i = 0; i < mostChunks && readHead(offset, chunk); ++i) {
-                Index length = chunk.length;
-                if (chunk.name != "data") {
-                    m_chunks.push_back(chunk);
+            std::optional<RiffChunk> chunk;
+            for (int i = 0; i < mostChunks && (chunk = chunkAt(offset)); ++i) {
+                Index length = chunk->length;
+                if (chunk->name != "data") {
+                    m_chunks.push_back(*chunk);
                 } else if (m_data.offset == 0) {
-                    setData(chunk);
+                    setData(*chunk);
                     length = m_dataBytes;
                 }
-                offset = chunk.offset + length;
-                WavChunk next; // some programs omit the padding
-                if (length % 2 != 0 && readHead(offset + 1, next))
+                offset = chunk->offset + length;
+                if (length % 2 != 0 && chunkAt(offset + 1)) // some programs omit the padding
                     ++offset;
             }
             if (m_data.offset == 0 && !m_chunks.empty())
@@ -166,19 +143,20 @@ namespace {
         void findDataBehind(Index offset)
         {
             constexpr Index largestHeadBytes = 1 << 16;
-            WavChunk chunk;
             for (Index at = offset; at < offset + largestHeadBytes && m_data.offset == 0; ++at)
-                if (m_file.hasAt(at, "data") && readHead(at, chunk) && chunk.offset + chunk.length == m_file.size())
-                    setData(chunk);
+                if (m_file.hasAt(at, "data"))
+                    if (const auto chunk = riffChunkAt(m_file, at);
+                        chunk && chunk->offset + chunk->length == m_file.size())
+                        setData(*chunk);
         }
 
-        void setData(const WavChunk &chunk)
+        void setData(const RiffChunk &chunk)
         {
             m_data = chunk;
-            const WavChunk *const lengths = m_isRf64 ? find("ds64") : nullptr;
+            const RiffChunk *const lengths = m_isRf64 ? find("ds64") : nullptr;
             std::array<std::byte, 16> both; // of the file and of the samples
             if (lengths && chunk.length == fourGiB - 1 && m_file.readAt(lengths->offset, both) == both.size())
-                m_data.length = Index(riffNumber(std::span(both).last(8)) & ~(std::uint64_t(1) << 63));
+                m_data.length = Index(littleEndian(std::span(both).last(8)) & ~(std::uint64_t(1) << 63));
             const Index available = m_file.size() - chunk.offset;
             m_isTruncated = m_data.length > available;
             m_dataBytes = available;
@@ -205,9 +183,9 @@ namespace {
         {
             constexpr Index frameBytesAt = 12;
             std::array<std::byte, 2> bytes{};
-            if (const WavChunk *const format = find("fmt "))
+            if (const RiffChunk *const format = find("fmt "))
                 m_file.readAt(format->offset + frameBytesAt, bytes);
-            return std::max<Index>(1, Index(riffNumber(bytes)));
+            return std::max<Index>(1, Index(littleEndian(bytes)));
         }
 
         BehindSamples behindAt(Index offset, bool isOdd) const
@@ -221,8 +199,8 @@ namespace {
         const FileBytes &m_file;
         bool m_isRf64 = false;
         bool m_isTruncated = false;
-        std::vector<WavChunk> m_chunks; ///< but the samples
-        WavChunk m_data;                ///< with its declared length
+        std::vector<RiffChunk> m_chunks; ///< but the samples
+        RiffChunk m_data;                ///< with its declared length
         Index m_dataBytes = 0;
         Index m_paddingBytes = 0;
     };
@@ -298,7 +276,7 @@ struct AudioDecoder::SharedInput {
         const Index chunk = offset - std::ssize(name);
         if (chunk < 0 || file->readAt(chunk, name) < name.size())
             return false;
-        const std::string_view text(reinterpret_cast<const char *>(name.data()), name.size());
+        const std::string_view text = asText(name);
         return (text == "LIST" || text == "INFO") && leadsBackwards(*file, chunk);
     }
 };

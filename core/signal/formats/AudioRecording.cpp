@@ -98,10 +98,9 @@ AudioRecording::AudioRecording(const std::string &path, bool iq) : m_file(std::m
     if (m_isIqBytes)
         m_info.notes.push_back("The zero of these bytes is taken to lie between 127 and 128, as in receivers.");
     m_stored = m_info.sampleCount;
-    m_stretches = readAudioMetadata(*decoder, m_info);
-    if (m_stretches.hasGaps()) {
-        m_info.sampleCount = m_stretches.end();
-        m_info.places = m_stretches;
+    if (const Stretches places = readAudioMetadata(*decoder, m_info); places.hasGaps()) {
+        m_info.sampleCount = places.end();
+        m_info.places = places;
     }
 
     auto handle = std::make_unique<Handle>();
@@ -174,12 +173,7 @@ void AudioRecording::giveBack(std::unique_ptr<Handle> handle) const
 
 void AudioRecording::read(int channel, Index first, Index count, std::span<float> out) const
 {
-    fill(first, count, out, [&](Index from, std::span<float> inside) {
-        if (!m_stretches.hasGaps())
-            return readStored(channel, from, inside);
-        m_stretches.read(from, m_info.floatsPerSample(), inside,
-                         [&](Index stored, std::span<float> part) { readStored(channel, stored, part); });
-    });
+    fillStored(first, count, out, [&](Index stored, std::span<float> part) { readStored(channel, stored, part); });
 }
 
 void AudioRecording::readStored(int channel, Index first, std::span<float> out) const

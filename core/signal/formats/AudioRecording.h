@@ -28,7 +28,7 @@ public:
     ~AudioRecording() override;
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
-    bool isWhole(Index first, Index count) const override { return m_stretches.isWhole(first, count); }
+    bool isWhole(Index first, Index count) const override { return m_info.places.isWhole(first, count); }
     bool isFinite(int channel, Index first, Index count) const override
     {
         return !m_isFloat || isFiniteByReading(channel, first, count);
@@ -61,7 +61,6 @@ private:
 
     std::shared_ptr<const FileBytes> m_file;
     Index m_stored = 0;       ///< samples in the file
-    Stretches m_stretches;    ///< their places in time; empty if they are contiguous
     Index m_streams = 1;      ///< channels of the file
     bool m_isIqBytes = false; ///< unsigned bytes of I and Q
     bool m_isFloat = false;   ///< uncompressed floats, whose full scale need not be 1

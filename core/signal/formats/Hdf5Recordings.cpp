@@ -67,16 +67,15 @@ void DigitalRfRecording::readIndex()
         const Index end = isLast ? rows : numbers[i + 3];
         const double inTime = double(numbers[i]) - double(numbers[0]);
         if (numbers[i] < 0 || (i == 0 && row != 0) || row < 0 || end <= row || end > rows || inTime > longest
-            || Index(inTime) < m_stretches.end())
+            || Index(inTime) < m_info.places.end())
             throw Error(where, "contradicts itself in line " + std::to_string(i / 2));
-        m_stretches.add(numbers[i] - numbers[0], row, end - row);
+        m_info.places.add(numbers[i] - numbers[0], row, end - row);
     }
-    m_info.sampleCount = m_stretches.end();
-    m_info.places = m_stretches;
+    m_info.sampleCount = m_info.places.end();
     m_info.startUnixSeconds = double(numbers[0]) / m_info.sampleRateHz;
-    if (m_stretches.hasGaps())
-        m_info.notes.push_back(std::to_string(m_stretches.gaps()) + " gap(s), in all "
-                               + std::to_string(m_stretches.missing()) + " samples, which were not observed.");
+    if (m_info.places.hasGaps())
+        m_info.notes.push_back(std::to_string(m_info.places.gaps()) + " gap(s), in all "
+                               + std::to_string(m_info.places.missing()) + " samples, which were not observed.");
 }
 
 void DigitalRfRecording::read(int channel, Index first, Index count, std::span<float> out) const
@@ -84,17 +83,14 @@ void DigitalRfRecording::read(int channel, Index first, Index count, std::span<f
     const float fullScale = m_data->isFloat() ? 1.0f : std::ldexp(1.0f, m_data->bits() - 1);
     const bool isIqByte = m_info.isComplex && m_data->bits() == 8; // see iqByteShift
     const float zero = m_data->isFloat() || m_data->isSigned() ? 0.0f : fullScale - (isIqByte ? 0.5f : 0.0f);
-    fill(first, count, out, [&](Index from, std::span<float> inside) {
-        const Index floats = m_info.floatsPerSample();
-        m_stretches.read(from, floats, inside, [&](Index row, std::span<float> part) {
-            const Index samples = std::ssize(part) / floats;
-            if (m_data->shape().size() == 2)
-                m_data->read({row, channel}, {samples, 1}, part);
-            else
-                m_data->read({row}, {samples}, part);
-            for (float &value : part)
-                value = (value - zero) / fullScale;
-        });
+    fillStored(first, count, out, [&](Index row, std::span<float> part) {
+        const Index samples = std::ssize(part) / m_info.floatsPerSample();
+        if (m_data->shape().size() == 2)
+            m_data->read({row, channel}, {samples, 1}, part);
+        else
+            m_data->read({row}, {samples}, part);
+        for (float &value : part)
+            value = (value - zero) / fullScale;
     });
 }
 

@@ -21,7 +21,7 @@ public:
     explicit DigitalRfRecording(const std::string &path);
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
-    bool isWhole(Index first, Index count) const override { return m_stretches.isWhole(first, count); }
+    bool isWhole(Index first, Index count) const override { return m_info.places.isWhole(first, count); }
     int scaleExponent(int channel) const override { return m_data->isFloat() ? measuredScaleExponent(channel) : 0; }
 
     /// Whether an HDF5 file holds both datasets.
@@ -32,7 +32,6 @@ private:
 
     std::unique_ptr<Hdf5File> m_file;
     std::unique_ptr<Hdf5Dataset> m_data;
-    Stretches m_stretches; ///< places of the rows in time
 };
 
 /// Strain of a gravitational-wave detector as published by the Gravitational Wave Open Science Center (GWOSC, .hdf5):

@@ -3,6 +3,8 @@
 #include "base/Error.h"
 #include "base/Field.h"
 #include "base/numberText.h"
+#include "signal/formats/bytes.h"
+#include "signal/formats/riffChunks.h"
 #include "signal/timeInName.h"
 
 #include <algorithm>
@@ -10,58 +12,21 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 namespace faintline {
 
 namespace {
 
-    constexpr Index headerBytes = 12;
     constexpr std::size_t mostRuns = 1 << 20;
 
-    struct Chunk {
-        std::array<char, 4> name{};
-        Index offset = 0; ///< of its content
-        Index size = 0;
-
-        bool is(std::string_view other) const { return std::string_view(name.data(), name.size()) == other; }
-        Index next() const { return offset + size + size % 2; }
-    };
-
-    template <class T>
-    T numberAt(std::span<const std::byte> bytes, std::size_t at)
-    {
-        T value;
-        std::memcpy(&value, bytes.data() + at, sizeof value);
-        return value;
-    }
-
-    std::optional<Chunk> chunkAt(const FileBytes &file, Index offset)
-    {
-        std::array<std::byte, 8> head;
-        if (file.readAt(offset, head) < head.size())
-            return std::nullopt;
-        Chunk chunk;
-        std::memcpy(chunk.name.data(), head.data(), chunk.name.size());
-        chunk.offset = offset + std::ssize(head);
-        chunk.size = numberAt<std::uint32_t>(head, 4);
-        return chunk;
-    }
-
-    bool isWave(const FileBytes &file)
-    {
-        return file.hasAt(0, "RIFF") && file.hasAt(8, "WAVE");
-    }
-
     /// The GNSS second of the week of a chunk's first sample; nothing if the receiver had no fix.
-    std::optional<double> stampOf(const FileBytes &file, const Chunk &kiwi)
+    std::optional<double> stampOf(const FileBytes &file, const RiffChunk &kiwi)
     {
         constexpr Index stampBytes = 10;
         std::array<std::byte, stampBytes> content;
-        if (kiwi.size < stampBytes || file.readAt(kiwi.offset, content) < content.size())
+        if (kiwi.length < stampBytes || file.readAt(kiwi.offset, content) < content.size())
             return std::nullopt;
         constexpr int noFix = 255;
         constexpr double week = 604800.0;
@@ -191,21 +156,22 @@ namespace {
 bool KiwiRecording::recognises(const std::string &path)
 {
     const FileBytes file(path);
-    if (!isWave(file))
+    if (!isWave(file, "RIFF"))
         return false;
-    const std::optional<Chunk> format = chunkAt(file, headerBytes);
-    if (!format || !format->is("fmt "))
+    const std::optional<RiffChunk> format = riffChunkAt(file, riffHeadBytes);
+    if (!format || format->name != "fmt ")
         return false;
-    const std::optional<Chunk> next = chunkAt(file, format->next());
-    return next && next->is("kiwi");
+    const std::optional<RiffChunk> next = riffChunkAt(file, format->end());
+    return next && next->name == "kiwi";
 }
 
 KiwiRecording::KiwiRecording(const std::string &path) : m_file(path)
 {
     static_assert(std::endian::native == std::endian::little);
-    const std::optional<Chunk> format = chunkAt(m_file, headerBytes);
+    const std::optional<RiffChunk> format = riffChunkAt(m_file, riffHeadBytes);
     std::array<std::byte, 16> fields;
-    if (!isWave(m_file) || !format || !format->is("fmt ") || m_file.readAt(format->offset, fields) < fields.size())
+    if (!isWave(m_file, "RIFF") || !format || format->name != "fmt "
+        || m_file.readAt(format->offset, fields) < fields.size())
         throw Error(path, "is not a KiwiSDR WAV file");
     const auto channels = numberAt<std::uint16_t>(fields, 2);
     const double nominalHz = numberAt<std::uint32_t>(fields, 4);
@@ -217,15 +183,15 @@ KiwiRecording::KiwiRecording(const std::string &path) : m_file(path)
 
     StampedClock clock(nominalHz);
     std::optional<double> stamp;
-    for (std::optional<Chunk> chunk = chunkAt(m_file, format->next()); chunk; chunk = chunkAt(m_file, chunk->next())) {
-        if (chunk->is("kiwi"))
+    for (auto chunk = riffChunkAt(m_file, format->end()); chunk; chunk = riffChunkAt(m_file, chunk->end())) {
+        if (chunk->name == "kiwi")
             stamp = stampOf(m_file, *chunk);
-        if (!chunk->is("data"))
+        if (chunk->name != "data")
             continue;
-        const Index there = std::min(chunk->size, m_file.size() - chunk->offset);
+        const Index there = std::min(chunk->length, m_file.size() - chunk->offset);
         clock.add(stored(), std::exchange(stamp, std::nullopt));
         add(chunk->offset, there / m_bytesPerSample);
-        if (there < chunk->size)
+        if (there < chunk->length)
             m_info.notes.push_back("The file ends within a chunk of samples; the existing part is read.");
     }
     if (stored() == 0)
@@ -241,14 +207,12 @@ KiwiRecording::KiwiRecording(const std::string &path) : m_file(path)
     const auto second = clock.firstSecond();
     if (const auto named = timeInName(path); named && second)
         m_info.startUnixSeconds = unixFromGpsWeekSecond(*second, *named);
-    m_stretches = clock.stretches(stored(), m_info.notes);
-    m_info.sampleCount = m_stretches.end();
-    m_info.places = m_stretches;
-    if (m_stretches.hasGaps())
-        m_info.notes.push_back(
-            "The time stamps show " + std::to_string(m_stretches.gaps()) + " gap(s), "
-            + formatNumber(std::round(1e3 * double(m_stretches.missing()) / m_info.sampleRateHz) / 1e3)
-            + " s in total, which were not observed.");
+    const Stretches &places = m_info.places = clock.stretches(stored(), m_info.notes);
+    m_info.sampleCount = places.end();
+    if (places.hasGaps())
+        m_info.notes.push_back("The time stamps show " + std::to_string(places.gaps()) + " gap(s), "
+                               + formatNumber(std::round(1e3 * double(places.missing()) / m_info.sampleRateHz) / 1e3)
+                               + " s in total, which were not observed.");
 }
 
 Index KiwiRecording::stored() const
@@ -312,10 +276,7 @@ void KiwiRecording::readStored(Index sample, std::span<float> out) const
 
 void KiwiRecording::read(int, Index first, Index count, std::span<float> out) const
 {
-    fill(first, count, out, [&](Index from, std::span<float> inside) {
-        m_stretches.read(from, m_info.floatsPerSample(), inside,
-                         [&](Index sample, std::span<float> part) { readStored(sample, part); });
-    });
+    fillStored(first, count, out, [&](Index sample, std::span<float> part) { readStored(sample, part); });
 }
 
 } // namespace faintline

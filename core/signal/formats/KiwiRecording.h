@@ -28,7 +28,7 @@ public:
     explicit KiwiRecording(const std::string &path);
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
-    bool isWhole(Index first, Index count) const override { return m_stretches.isWhole(first, count); }
+    bool isWhole(Index first, Index count) const override { return m_info.places.isWhole(first, count); }
 
     /// Whether a "kiwi" chunk follows the format chunk of a WAV file.
     static bool recognises(const std::string &path);
@@ -51,7 +51,6 @@ private:
     FileBytes m_file;
     Index m_bytesPerSample = 4; ///< of all channels
     std::vector<ChunkRun> m_runs;
-    Stretches m_stretches; ///< places of the stored samples in time
 };
 
 } // namespace faintline

@@ -27,7 +27,7 @@ namespace {
         return text + ")";
     }
 
-    std::string header(const std::vector<Index> &shape)
+    std::string headerText(const std::vector<Index> &shape)
     {
         std::string dictionary = "{'descr': '<f4', 'fortran_order': False, 'shape': " + shapeText(shape) + ", }";
         while ((numPyMagic.size() + 4 + dictionary.size() + 1) % 64 != 0)
@@ -84,15 +84,10 @@ namespace {
         return shape;
     }
 
-    Index valueCount(const NumPyLayout &layout)
+    Error cutShort(const NumPyHeader &header, const std::string &path)
     {
-        return std::accumulate(layout.shape.begin(), layout.shape.end(), Index(1), std::multiplies<>());
-    }
-
-    Error cutShort(const NumPyLayout &layout, const std::string &path)
-    {
-        return Error(path, "is truncated: its shape " + shapeText(layout.shape) + " requires "
-                               + std::to_string(valueCount(layout)) + " values");
+        return Error(path, "is truncated: its shape " + shapeText(header.shape) + " requires "
+                               + std::to_string(valueCount(header.shape)) + " values");
     }
 
     /// The header's dictionary; the values follow it in the file.
@@ -119,84 +114,87 @@ namespace {
         return dictionary;
     }
 
-    NumPyLayout readLayout(std::ifstream &file, int mostExponent, const std::string &path)
+    NumPyHeader readHeader(std::ifstream &file, int mostExponent, const std::string &path)
     {
         const std::string dictionary = readDictionary(file, path);
         const std::string_view type = entry(dictionary, "descr", path);
-        if (!type.starts_with("'<f4'") && !type.starts_with("'<f8'"))
-            throw Error(path, "holds " + std::string(type.substr(0, type.find(',')))
-                                  + "; expected float32 or float64, little-endian");
-        const auto begin = Index(file.tellg());
-        NumPyLayout layout{parseShape(entry(dictionary, "shape", path), mostExponent, path), begin,
-                           type.starts_with("'<f8'")};
-        std::error_code code;
-        const std::uintmax_t size = std::filesystem::file_size(path, code);
-        const auto wanted =
-            static_cast<std::uintmax_t>(valueCount(layout)) * (layout.isDouble ? sizeof(double) : sizeof(float));
-        if (!code && size - std::uintmax_t(begin) < wanted) // before memory is allocated for missing values
-            throw cutShort(layout, path);
-        return layout;
+        const std::size_t end = type.starts_with('\'') ? type.find('\'', 1) : std::string_view::npos;
+        if (end == std::string_view::npos)
+            throw Error(path, "holds records; expected numbers");
+        return {parseShape(entry(dictionary, "shape", path), mostExponent, path), Index(file.tellg()),
+                std::string(type.substr(1, end - 1))};
     }
 
-    template <class T, class Array>
-    void readValues(std::ifstream &file, Array &array, std::size_t total, const NumPyLayout &layout,
-                    const std::string &path)
+    /// Of an array of floats that is as long as its shape requires; it may be larger than memory.
+    NumPyHeader readFloatHeader(std::ifstream &file, int mostExponent, const std::string &path)
     {
-        array.values.resize(total);
-        std::vector<T> chunk(1 << 16);
-        for (std::size_t done = 0; done < total;) {
-            const std::size_t count = std::min(chunk.size(), total - done);
-            if (!file.read(reinterpret_cast<char *>(chunk.data()), static_cast<std::streamsize>(count * sizeof(T))))
-                throw cutShort(layout, path);
+        const NumPyHeader header = readHeader(file, mostExponent, path);
+        if (header.descriptor != "<f4" && !header.isDouble())
+            throw Error(path, "holds '" + header.descriptor + "'; expected float32 or float64, little-endian");
+        std::error_code code;
+        const std::uintmax_t size = std::filesystem::file_size(path, code);
+        const auto wanted = static_cast<std::uintmax_t>(valueCount(header.shape))
+                            * (header.isDouble() ? sizeof(double) : sizeof(float));
+        if (!code && size - std::uintmax_t(header.offset) < wanted) // before memory is allocated for missing values
+            throw cutShort(header, path);
+        return header;
+    }
+
+    NumPyHeader readFloatHeader(const std::string &path)
+    {
+        std::ifstream file(path, std::ios::binary);
+        return readFloatHeader(file, fileExponent, path);
+    }
+
+    template <class Stored, class T>
+    void readValues(std::ifstream &file, std::vector<T> &values, const NumPyHeader &header, const std::string &path)
+    {
+        std::vector<Stored> chunk(1 << 16);
+        for (std::size_t done = 0; done < values.size();) {
+            const std::size_t count = std::min(chunk.size(), values.size() - done);
+            const auto bytes = static_cast<std::streamsize>(count * sizeof(Stored));
+            if (!file.read(reinterpret_cast<char *>(chunk.data()), bytes))
+                throw cutShort(header, path);
             for (std::size_t i = 0; i < count; ++i)
-                array.values[done + i] = static_cast<typename decltype(array.values)::value_type>(chunk[i]);
+                values[done + i] = static_cast<T>(chunk[i]);
             done += count;
         }
     }
 
-    template <class Array>
-    Array readArray(const std::string &path)
+    template <class T>
+    NumPyValues<T> readArray(const std::string &path)
     {
         std::ifstream file(path, std::ios::binary);
-        const NumPyLayout layout = readLayout(file, arrayExponent, path);
-        const Index total = valueCount(layout);
-        Array array;
-        array.shape = layout.shape;
-        if (layout.isDouble)
-            readValues<double>(file, array, std::size_t(total), layout, path);
+        const NumPyHeader header = readFloatHeader(file, arrayExponent, path);
+        NumPyValues<T> array{header.shape, std::vector<T>(std::size_t(valueCount(header.shape)))};
+        if (header.isDouble())
+            readValues<double>(file, array.values, header, path);
         else
-            readValues<float>(file, array, std::size_t(total), layout, path);
+            readValues<float>(file, array.values, header, path);
         return array;
     }
 
 } // namespace
 
+Index valueCount(const std::vector<Index> &shape)
+{
+    return std::accumulate(shape.begin(), shape.end(), Index(1), std::multiplies<>());
+}
+
 NumPyHeader readNumPyHeader(const std::string &path)
 {
     std::ifstream file(path, std::ios::binary);
-    const std::string dictionary = readDictionary(file, path);
-    const std::string_view type = entry(dictionary, "descr", path);
-    const std::size_t end = type.starts_with('\'') ? type.find('\'', 1) : std::string_view::npos;
-    if (end == std::string_view::npos)
-        throw Error(path, "holds records; expected numbers");
-    return {parseShape(entry(dictionary, "shape", path), fileExponent, path), Index(file.tellg()),
-            std::string(type.substr(1, end - 1))};
-}
-
-NumPyLayout readNumPyLayout(const std::string &path)
-{
-    std::ifstream file(path, std::ios::binary);
-    return readLayout(file, fileExponent, path);
+    return readHeader(file, fileExponent, path);
 }
 
 NumPyArray readNumPy(const std::string &path)
 {
-    return readArray<NumPyArray>(path);
+    return readArray<float>(path);
 }
 
 NumPyDoubles readNumPyDoubles(const std::string &path)
 {
-    return readArray<NumPyDoubles>(path);
+    return readArray<double>(path);
 }
 
 NumPyWriter::NumPyWriter(const std::string &path, const std::vector<Index> &shape) : m_file(path), m_path(path)
@@ -204,7 +202,7 @@ NumPyWriter::NumPyWriter(const std::string &path, const std::vector<Index> &shap
     static_assert(std::endian::native == std::endian::little);
     for (Index n : shape)
         m_expected *= n;
-    m_file.write(header(shape));
+    m_file.write(headerText(shape));
 }
 
 void NumPyWriter::write(std::span<const float> values)
@@ -227,7 +225,7 @@ bool NumPyPower::recognises(const std::string &path, const std::string &gridPath
     if (!std::filesystem::is_regular_file(gridPath, ignored))
         return false;
     try {
-        const GridFile file = readGridFile(gridPath, readNumPyLayout(path).shape);
+        const GridFile file = readGridFile(gridPath, readFloatHeader(path).shape);
         return file.isPower && file.grid.isSpectrum();
     } catch (const Error &) {
         return false;
@@ -235,15 +233,15 @@ bool NumPyPower::recognises(const std::string &path, const std::string &gridPath
 }
 
 NumPyPower::NumPyPower(const std::string &path, const std::string &gridPath)
-    : m_file(path), m_layout(readNumPyLayout(path))
+    : m_file(path), m_header(readFloatHeader(path))
 {
-    const GridFile grid = readGridFile(gridPath, m_layout.shape);
+    const GridFile grid = readGridFile(gridPath, m_header.shape);
     if (!grid.grid.isSpectrum())
         throw Error(path,
                     "holds power on " + grid.grid.axisCountWords() + "; only (frames, frequencies) can be normalised");
     m_info.path = path;
     m_info.container = "NumPy spectrogram";
-    m_info.sampleType = m_layout.isDouble ? "float64" : "float32";
+    m_info.sampleType = m_header.isDouble() ? "float64" : "float32";
     m_info.time = grid.time;
     m_info.frequency = grid.grid.axes.front();
     if (m_info.time.count < 1 || m_info.frequency.count < 1)
@@ -252,14 +250,14 @@ NumPyPower::NumPyPower(const std::string &path, const std::string &gridPath)
 
 void NumPyPower::read(const PowerPart &part, std::span<float> out) const
 {
-    const Index valueBytes = m_layout.isDouble ? sizeof(double) : sizeof(float);
-    std::vector<double> doubles(m_layout.isDouble ? std::size_t(part.cells) : 0);
+    const Index valueBytes = m_header.isDouble() ? sizeof(double) : sizeof(float);
+    std::vector<double> doubles(m_header.isDouble() ? std::size_t(part.cells) : 0);
     for (Index i = 0; i < part.frames; ++i) {
         const std::span<float> row = out.subspan(std::size_t(i * part.cells), std::size_t(part.cells));
         const std::span<std::byte> bytes =
-            m_layout.isDouble ? std::as_writable_bytes(std::span(doubles)) : std::as_writable_bytes(row);
+            m_header.isDouble() ? std::as_writable_bytes(std::span(doubles)) : std::as_writable_bytes(row);
         const Index at =
-            m_layout.offset + ((part.firstFrame + i) * m_info.frequency.count + part.firstCell) * valueBytes;
+            m_header.offset + ((part.firstFrame + i) * m_info.frequency.count + part.firstCell) * valueBytes;
         if (m_file.readAt(at, bytes) < bytes.size())
             throw Error(m_info.path, "was truncated while open", Error::Kind::Failure);
         for (std::size_t cell = 0; cell < doubles.size(); ++cell)

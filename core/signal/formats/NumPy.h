@@ -11,37 +11,29 @@
 
 namespace faintline {
 
-/// An array in NumPy's .npy format, version 1.0: float32 or float64, little-endian, C order.
-struct NumPyArray {
+/// Values of an array in NumPy's .npy format, version 1.0: float32 or float64, little-endian, C order.
+template <class T>
+struct NumPyValues {
     std::vector<Index> shape;
-    std::vector<float> values; ///< float64 is rounded to single precision
+    std::vector<T> values;
 };
+using NumPyArray = NumPyValues<float>; ///< float64 is rounded to single precision
+using NumPyDoubles = NumPyValues<double>;
 
-/// The same in double precision.
-struct NumPyDoubles {
-    std::vector<Index> shape;
-    std::vector<double> values;
-};
+/// Number of values in an array of that shape.
+Index valueCount(const std::vector<Index> &shape);
 
 /// Shape, position and type of the values of any .npy file in C order, without reading them.
 struct NumPyHeader {
     std::vector<Index> shape;
     Index offset = 0;       ///< of the first value, bytes
     std::string descriptor; ///< NumPy's name of the type: "<f4", "|u1" …
+
+    bool isDouble() const { return descriptor == "<f8"; }
 };
 
 /// Throws Error if the file is not such an array; its length and type are not checked.
 NumPyHeader readNumPyHeader(const std::string &path);
-
-/// The same of an array of float32 or float64.
-struct NumPyLayout {
-    std::vector<Index> shape;
-    Index offset = 0; ///< of the first value, bytes
-    bool isDouble = false;
-};
-
-/// Throws Error if the file is not such an array or is truncated; it may be larger than memory.
-NumPyLayout readNumPyLayout(const std::string &path);
 
 /// Throws Error if the file is not such an array, is truncated, or holds more than 2³¹ values.
 NumPyArray readNumPy(const std::string &path);
@@ -84,7 +76,7 @@ public:
 
 private:
     FileBytes m_file;
-    NumPyLayout m_layout;
+    NumPyHeader m_header;
 };
 
 } // namespace faintline

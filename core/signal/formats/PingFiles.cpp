@@ -1,13 +1,11 @@
 #include "signal/formats/PingFiles.h"
 
 #include "base/Error.h"
+#include "signal/formats/bytes.h"
 #include "signal/formats/gridFile.h"
 
 #include <array>
 #include <cstdint>
-#include <cstring>
-#include <functional>
-#include <numeric>
 #include <vector>
 
 namespace faintline {
@@ -19,11 +17,8 @@ namespace {
     template <class T>
     void toDoubles(std::span<const std::byte> bytes, std::span<double> out)
     {
-        for (std::size_t i = 0; i < out.size(); ++i) {
-            T value;
-            std::memcpy(&value, bytes.data() + i * sizeof value, sizeof value);
-            out[i] = double(value);
-        }
+        for (std::size_t i = 0; i < out.size(); ++i)
+            out[i] = double(numberAt<T>(bytes, i * sizeof(T)));
     }
 
     struct NumberType {
@@ -56,17 +51,12 @@ namespace {
                                 "little-endian");
     }
 
-    Index numbersIn(const std::vector<Index> &shape)
-    {
-        return std::accumulate(shape.begin(), shape.end(), Index(1), std::multiplies<>());
-    }
-
 } // namespace
 
 void PingFile::describe(const std::string &path, const std::string &gridPath, const std::vector<Index> &shape,
                         bool isComplex, bool isInteger)
 {
-    if (numbersIn(shape) < 1)
+    if (valueCount(shape) < 1)
         throw Error(path, "holds no values");
     const GridFile grid = gridPath.empty() ? plainGrid(shape) : readGridFile(gridPath, shape);
     if (grid.isIq && isComplex)
@@ -88,7 +78,7 @@ NumPyPings::NumPyPings(const std::string &path, const std::string &gridPath)
     if (m_header.shape.size() < 2)
         throw Error(path, "must have the shape (pings, cells…)");
     describe(path, gridPath, m_header.shape, type.isComplex, type.isInteger);
-    const Index values = numbersIn(m_header.shape);
+    const Index values = valueCount(m_header.shape);
     if (m_file.size() - m_header.offset < values * type.bytes * (type.isComplex ? 2 : 1))
         throw Error(path, "is truncated: its shape requires " + std::to_string(values) + " values");
     m_info.container = "NumPy pings";

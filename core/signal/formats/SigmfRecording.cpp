@@ -349,14 +349,7 @@ void SigmfRecording::placeInTime(const Meta &meta)
 
 void SigmfRecording::read(int channel, Index first, Index count, std::span<float> out) const
 {
-    if (!m_info.places.hasGaps()) {
-        RawRecording::read(channel, first, count, out);
-        return;
-    }
-    fill(first, count, out, [&](Index from, std::span<float> inside) {
-        m_info.places.read(from, m_info.floatsPerSample(), inside,
-                           [&](Index inFile, std::span<float> part) { readFile(channel, inFile, part); });
-    });
+    fillStored(first, count, out, [&](Index inFile, std::span<float> part) { readFile(channel, inFile, part); });
 }
 
 bool SigmfRecording::isWhole(Index first, Index count) const

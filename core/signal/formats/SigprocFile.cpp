@@ -3,13 +3,13 @@
 #include "base/Error.h"
 #include "base/Field.h"
 #include "base/oneLine.h"
+#include "signal/formats/bytes.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <string_view>
@@ -46,9 +46,7 @@ namespace {
         template <class T>
         T number()
         {
-            T value;
-            std::memcpy(&value, take(sizeof value).data(), sizeof value);
-            return value;
+            return numberAt<T>(take(sizeof(T)));
         }
 
         std::string word()
@@ -57,8 +55,7 @@ namespace {
             if (length < 1 || length > longestWord)
                 throw Error(m_path, "its filterbank header has a keyword of " + std::to_string(length)
                                         + " characters; the length must be 1 … 255");
-            const std::span<const std::byte> text = take(std::size_t(length));
-            return {reinterpret_cast<const char *>(text.data()), text.size()};
+            return std::string(asText(take(std::size_t(length))));
         }
 
         Index position() const { return Index(m_at); }
@@ -118,10 +115,8 @@ namespace {
         return found->second;
     }
 
-    double requiredWithin(const Values &values, const std::string &name, const std::string &path, double least,
-                          double most)
+    double within(double value, double least, double most, const std::string &name, const std::string &path)
     {
-        const double value = required(values, name, path);
         if (!(value >= least && value <= most))
             throw Error(path + ": " + name + " = " + formatNumber(value),
                         "must lie in " + formatNumber(least) + " … " + formatNumber(most));
@@ -152,6 +147,26 @@ namespace {
         return bytes;
     }
 
+    template <class T>
+    void widen(std::span<const std::byte> bytes, std::span<float> out, double offset = 0.0)
+    {
+        for (std::size_t i = 0; i < out.size(); ++i)
+            out[i] = float(numberAt<T>(bytes, i * sizeof(T))) + float(offset);
+    }
+
+    /// Unpacks values of a few bits, from one in the first byte on, the lowest bits first.
+    void unpack(std::span<const std::byte> bytes, int bits, Index firstBit, std::span<float> out)
+    {
+        const unsigned mask = (1u << bits) - 1u;
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            const auto bit = std::size_t(firstBit) + i * std::size_t(bits);
+            out[i] = float((std::to_integer<unsigned>(bytes[bit / 8]) >> (bit % 8)) & mask);
+        }
+    }
+
+    constexpr const char *filterbankName = "data";
+    constexpr Index coarseChannel = Index(1) << 20; ///< channels
+
 } // namespace
 
 bool SigprocFile::recognises(const std::string &path)
@@ -167,12 +182,10 @@ SigprocFile::SigprocFile(const std::string &path) : m_file(path)
     const Values values = readHeaderValues(header, path);
     m_dataOffset = header.position();
 
-    const auto channels = Index(requiredWithin(values, "nchans", path, 1.0, largestCount));
-    m_bits = int(requiredWithin(values, "nbits", path, 1.0, 32.0));
+    const auto channels = Index(within(required(values, "nchans", path), 1.0, largestCount, "nchans", path));
+    m_bits = int(within(required(values, "nbits", path), 1.0, 32.0, "nbits", path));
     m_isSigned = m_bits == 8 && valueOr(values, "signed", 0.0) != 0.0;
-    const double ifs = valueOr(values, "nifs", 1.0);
-    if (!(ifs >= 1.0 && ifs <= 64.0))
-        throw Error(path + ": nifs = " + formatNumber(ifs), "must lie in 1 … 64");
+    const double ifs = within(valueOr(values, "nifs", 1.0), 1.0, 64.0, "nifs", path);
 
     m_info.path = path;
     m_info.container = "sigproc filterbank";
@@ -187,44 +200,14 @@ SigprocFile::SigprocFile(const std::string &path) : m_file(path)
     const Index frames = dataBytes / (bitsOfFrame / 8);
     if (frames < 1)
         throw Error(path, "holds no complete spectrum of its " + std::to_string(channels) + " channels");
-    const FilterbankHeader axes{required(values, "fch1", path),
-                                required(values, "foff", path),
-                                required(values, "tsamp", path),
-                                valueOr(values, "tstart", 0.0),
-                                channels,
-                                frames};
-    setFilterbankAxes(m_info, axes, path);
-    m_descends = axes.foff < 0.0;
+    setAxes({required(values, "fch1", path), required(values, "foff", path), required(values, "tsamp", path),
+             valueOr(values, "tstart", 0.0), channels, frames});
     if (const auto claimed = Index(valueOr(values, "nsamples", 0.0)); claimed > frames)
         m_info.notes.emplace_back("The header claims " + std::to_string(claimed) + " spectra; the "
                                   + std::to_string(frames) + " existing ones are read.");
     else if (dataBytes % (bitsOfFrame / 8) != 0)
         m_info.notes.emplace_back("The file ends within a spectrum, which is omitted.");
 }
-
-namespace {
-
-    template <class T>
-    void widen(std::span<const std::byte> bytes, std::span<float> out, double offset = 0.0)
-    {
-        for (std::size_t i = 0; i < out.size(); ++i) {
-            T value;
-            std::memcpy(&value, bytes.data() + i * sizeof value, sizeof value);
-            out[i] = float(value) + float(offset);
-        }
-    }
-
-    /// Unpacks values of a few bits, from one in the first byte on, the lowest bits first.
-    void unpack(std::span<const std::byte> bytes, int bits, Index firstBit, std::span<float> out)
-    {
-        const unsigned mask = (1u << bits) - 1u;
-        for (std::size_t i = 0; i < out.size(); ++i) {
-            const auto bit = std::size_t(firstBit) + i * std::size_t(bits);
-            out[i] = float((std::to_integer<unsigned>(bytes[bit / 8]) >> (bit % 8)) & mask);
-        }
-    }
-
-} // namespace
 
 /// Reads channels of one spectrum of one IF in the file's order. Row: frame × IFs + IF.
 void SigprocFile::readRow(Index row, Index firstChannel, std::span<float> out) const
@@ -249,23 +232,12 @@ void SigprocFile::readRow(Index row, Index firstChannel, std::span<float> out) c
     }
 }
 
-void SigprocFile::read(const PowerPart &part, std::span<float> out) const
+void SigprocFile::readStored(const PowerPart &part, Index first, std::span<float> out) const
 {
-    const Index first = m_descends ? m_info.frequency.count - part.firstCell - part.cells : part.firstCell;
-    for (Index i = 0; i < part.frames; ++i) {
-        const std::span<float> frame = out.subspan(std::size_t(i * part.cells), std::size_t(part.cells));
-        readRow((part.firstFrame + i) * m_info.channelCount + part.channel, first, frame);
-        if (m_descends)
-            std::reverse(frame.begin(), frame.end());
-    }
-    excludeDc(m_info, part, m_descends, out);
+    for (Index i = 0; i < part.frames; ++i)
+        readRow((part.firstFrame + i) * m_info.channelCount + part.channel, first,
+                out.subspan(std::size_t(i * part.cells), std::size_t(part.cells)));
 }
-
-namespace {
-
-    constexpr const char *filterbankName = "data";
-
-} // namespace
 
 bool Hdf5Filterbank::recognises(const std::string &path)
 {
@@ -287,7 +259,7 @@ Hdf5Filterbank::Hdf5Filterbank(const std::string &path)
     if (shape[1] > mostPolarisations || shape[2] > mostChannels)
         throw Error(path, "has " + std::to_string(shape[1]) + " polarisations of " + std::to_string(shape[2])
                               + " channels; at most 64 polarisations of 67 million channels are supported");
-    FilterbankHeader header;
+    Header header;
     for (const auto &[value, name] :
          {std::pair{&header.fch1, "fch1"}, std::pair{&header.foff, "foff"}, std::pair{&header.tsamp, "tsamp"}}) {
         const auto given = m_data->number(name);
@@ -298,66 +270,59 @@ Hdf5Filterbank::Hdf5Filterbank(const std::string &path)
     header.tstart = m_data->number("tstart").value_or(0.0);
     header.frames = shape[0];
     header.channels = shape[2];
-    setFilterbankAxes(m_info, header, path);
-    m_descends = header.foff < 0.0;
     m_info.path = path;
+    setAxes(header);
     m_info.container = "HDF5 filterbank";
     m_info.sampleType = m_data->typeName();
     m_info.channelCount = int(shape[1]);
 }
 
-void Hdf5Filterbank::read(const PowerPart &part, std::span<float> out) const
+void Hdf5Filterbank::readStored(const PowerPart &part, Index first, std::span<float> out) const
 {
-    const Index first = m_descends ? m_info.frequency.count - part.firstCell - part.cells : part.firstCell;
     m_data->read({part.firstFrame, part.channel, first}, {part.frames, 1, part.cells}, out);
+}
+
+void Filterbank::read(const PowerPart &part, std::span<float> out) const
+{
+    readStored(part, m_descends ? m_info.frequency.count - part.firstCell - part.cells : part.firstCell, out);
     if (m_descends)
         for (auto row = out.begin(); row != out.end(); row += part.cells)
             std::reverse(row, row + part.cells);
-    excludeDc(m_info, part, m_descends, out);
+    excludeDc(part, out);
 }
 
-namespace {
-
-    constexpr Index coarseChannel = Index(1) << 20; ///< channels
-
-    void checkWithin(double value, double least, double most, const char *name, const std::string &path)
-    {
-        if (!(value >= least && value <= most))
-            throw Error(path + ": " + name + " = " + formatNumber(value),
-                        "must lie in " + formatNumber(least) + " … " + formatNumber(most));
-    }
-
-} // namespace
-
-void setFilterbankAxes(PowerInfo &info, const FilterbankHeader &header, const std::string &path)
+void Filterbank::setAxes(const Header &header)
 {
+    const std::string &path = m_info.path;
     constexpr double frequencyLimitMHz = 1e9; // MHz
     constexpr double megahertz = 1e6;
     constexpr double unixDay = 40587.0; // MJD of 1970-01-01
     constexpr double daySeconds = 86400.0;
-    checkWithin(header.tsamp, 1e-12, 1e7, "tsamp", path);
-    checkWithin(header.fch1, -frequencyLimitMHz, frequencyLimitMHz, "fch1", path);
-    checkWithin(header.foff, -frequencyLimitMHz, frequencyLimitMHz, "foff", path);
+    within(header.tsamp, 1e-12, 1e7, "tsamp", path);
+    within(header.fch1, -frequencyLimitMHz, frequencyLimitMHz, "fch1", path);
+    within(header.foff, -frequencyLimitMHz, frequencyLimitMHz, "foff", path);
     if (!(std::abs(header.foff) > 0.0))
         throw Error(path + ": foff = 0", "must be the channel spacing, MHz");
-    const double lowest = header.foff < 0.0 ? header.fch1 + double(header.channels - 1) * header.foff : header.fch1;
-    info.frequency = {"frequency", "Hz", lowest * megahertz, std::abs(header.foff) * megahertz, header.channels, false};
-    info.time = {"time", "s", 0.5 * header.tsamp, header.tsamp, header.frames, false};
+    m_descends = header.foff < 0.0;
+    const double lowest = m_descends ? header.fch1 + double(header.channels - 1) * header.foff : header.fch1;
+    m_info.frequency = {"frequency",     "Hz", lowest * megahertz, std::abs(header.foff) * megahertz,
+                        header.channels, false};
+    m_info.time = {"time", "s", 0.5 * header.tsamp, header.tsamp, header.frames, false};
     if (header.tstart > unixDay && header.tstart < 1e6)
-        info.startUnixSeconds = (header.tstart - unixDay) * daySeconds;
+        m_info.startUnixSeconds = (header.tstart - unixDay) * daySeconds;
     if (header.channels > 0 && header.channels % coarseChannel == 0)
-        info.notes.push_back("The middle channel of each of its " + std::to_string(header.channels / coarseChannel)
-                             + " coarse channels holds the receiver's DC offset and is not observed "
-                               "(noise.blankDc=false observes it).");
+        m_info.notes.push_back("The middle channel of each of its " + std::to_string(header.channels / coarseChannel)
+                               + " coarse channels holds the receiver's DC offset and is not observed "
+                                 "(noise.blankDc=false observes it).");
 }
 
-void excludeDc(const PowerInfo &info, const PowerPart &part, bool descends, std::span<float> out)
+void Filterbank::excludeDc(const PowerPart &part, std::span<float> out) const
 {
-    const Index all = info.frequency.count;
+    const Index all = m_info.frequency.count;
     if (part.hasDc || all % coarseChannel != 0)
         return;
     for (Index middle = coarseChannel / 2; middle < all; middle += coarseChannel) {
-        const Index cell = (descends ? all - 1 - middle : middle) - part.firstCell;
+        const Index cell = (m_descends ? all - 1 - middle : middle) - part.firstCell;
         for (Index frame = 0; cell >= 0 && cell < part.cells && frame < part.frames; ++frame)
             out[std::size_t(frame * part.cells + cell)] = std::numeric_limits<float>::quiet_NaN();
     }

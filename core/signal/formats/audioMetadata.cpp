@@ -1,13 +1,13 @@
 #include "signal/formats/audioMetadata.h"
 
 #include "base/utc.h"
+#include "signal/formats/bytes.h"
 #include "signal/timeInName.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <regex>
 #include <span>
 #include <string_view>
@@ -84,12 +84,10 @@ namespace {
             {numberIn(time.substr(0, 2)), numberIn(time.substr(3, 2)), double(numberIn(time.substr(6, 2)))});
     }
 
-    std::uint32_t littleEndian(const std::vector<std::byte> &bytes, std::size_t at, std::size_t count)
+    /// A little-endian number of a chunk.
+    std::uint32_t wordIn(const std::vector<std::byte> &chunk, std::size_t at, std::size_t count)
     {
-        std::uint32_t value = 0;
-        for (std::size_t i = count; i-- > 0;)
-            value = value << 8 | std::uint32_t(bytes[at + i]);
-        return value;
+        return std::uint32_t(littleEndian(std::span(chunk).subspan(at, count)));
     }
 
     /// SpectraVue's chunk, written by many receivers: two Windows SYSTEMTIMEs (start, stop), then the centre frequency.
@@ -97,14 +95,14 @@ namespace {
     {
         if (auxi.size() < 36)
             return;
-        const auto word = [&](std::size_t i) { return int(littleEndian(auxi, 2 * i, 2)); };
+        const auto word = [&](std::size_t i) { return int(wordIn(auxi, 2 * i, 2)); };
         const auto start = unixSeconds(word(0), word(1), word(3), {word(4), word(5), word(6) + word(7) / 1000.0});
         if (!start || word(0) < 1970)
             return;
         info.startUnixSeconds = start;
         info.notes.push_back("Start time taken from the auxi chunk, read as UTC.");
         if (info.isComplex) {
-            info.centreHz = littleEndian(auxi, 32, 4);
+            info.centreHz = wordIn(auxi, 32, 4);
             info.notes.push_back("Centre frequency taken from the auxi chunk.");
         } else if (info.channelCount == 2) {
             info.notes.push_back(
@@ -128,16 +126,15 @@ namespace {
         std::vector<HarpEntry> entries;
         if (harp.size() < entriesAt + entryBytes)
             return entries;
-        const std::size_t count =
-            std::min<std::size_t>(littleEndian(harp, 36, 2), (harp.size() - entriesAt) / entryBytes);
+        const std::size_t count = std::min<std::size_t>(wordIn(harp, 36, 2), (harp.size() - entriesAt) / entryBytes);
         for (std::size_t entry = 0; entry < count; ++entry) {
             const std::size_t at = entriesAt + entry * entryBytes;
-            const auto byte = [&](std::size_t i) { return int(littleEndian(harp, at + i, 1)); };
+            const auto byte = [&](std::size_t i) { return int(wordIn(harp, at + i, 1)); };
             const auto start = unixSeconds(2000 + byte(0), byte(1), byte(2),
-                                           {byte(3), byte(4), byte(5) + littleEndian(harp, at + 6, 2) / 1000.0});
+                                           {byte(3), byte(4), byte(5) + wordIn(harp, at + 6, 2) / 1000.0});
             if (!start)
                 break;
-            entries.push_back({*start, Index(littleEndian(harp, at + 12, 4)) / (sampleBytes * channels)});
+            entries.push_back({*start, Index(wordIn(harp, at + 12, 4)) / (sampleBytes * channels)});
         }
         return entries;
     }
@@ -189,7 +186,7 @@ namespace {
     /// GUANO's "Timestamp: 2020-12-14T19:22:55-05:00", if it has a zone.
     std::optional<double> guanoTime(const std::vector<std::byte> &guano)
     {
-        const std::string_view text(reinterpret_cast<const char *>(guano.data()), guano.size());
+        const std::string_view text = asText(guano);
         constexpr std::string_view key = "Timestamp:";
         const std::size_t at = text.starts_with(key) ? 0 : text.find("\nTimestamp:") + 1; // 0: none
         if (!text.substr(at).starts_with(key))
@@ -221,14 +218,6 @@ namespace {
         return isZone && fromQuarter(lasts) > 2.0 * tolerance ? std::optional(said - lasts) : std::nullopt;
     }
 
-    std::uint32_t bigEndian(std::span<const std::byte> bytes)
-    {
-        std::uint32_t value = 0;
-        for (const std::byte byte : bytes)
-            value = value << 8 | std::uint32_t(byte);
-        return value;
-    }
-
 } // namespace
 
 bool hasAiffRate(const FileBytes &file)
@@ -237,14 +226,14 @@ bool hasAiffRate(const FileBytes &file)
     const std::span<const std::byte> bytes(head);
     Index offset = 12;
     for (int chunks = 0; chunks < 1000 && file.readAt(offset, std::span(head).first(8)) == 8; ++chunks) {
-        const bool isCommon = std::memcmp(head.data(), "COMM", 4) == 0;
-        const Index length = bigEndian(bytes.subspan(4, 4));
+        const bool isCommon = asText(head).starts_with("COMM");
+        const auto length = Index(bigEndian(bytes.subspan(4, 4)));
         if (isCommon) {
             if (file.readAt(offset + 8, head) != head.size())
                 return false;
             // Channels, frames, bits, then sign and exponent (bias 16383) in two bytes, and a significand with explicit
             // leading 1.
-            const std::uint32_t exponent = bigEndian(bytes.subspan(8, 2));
+            const std::uint64_t exponent = bigEndian(bytes.subspan(8, 2));
             const bool isNormal = bigEndian(bytes.subspan(10, 4)) >> 31 != 0;
             return isNormal && exponent >= 16383
                    && exponent < 16383 + 30; // also false with a sign bit, and for infinity and NaN

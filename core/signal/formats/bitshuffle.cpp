@@ -1,5 +1,7 @@
 #include "signal/formats/bitshuffle.h"
 
+#include "signal/formats/bytes.h"
+
 #include <lz4.h>
 
 #include <algorithm>
@@ -12,14 +14,6 @@ namespace {
     constexpr std::size_t multiple = 8;       ///< block sizes are multiples of it, elements
     constexpr std::size_t targetBytes = 8192; ///< size of a block if not specified
     constexpr std::size_t fewestElements = 128;
-
-    std::uint64_t bigEndian64(std::span<const std::byte> bytes)
-    {
-        std::uint64_t value = 0;
-        for (const std::byte byte : bytes)
-            value = value << 8 | std::to_integer<std::uint64_t>(byte);
-        return value;
-    }
 
     /// 8 × 8 bits, transposed (Warren, Hacker's Delight, 7-3).
     std::uint64_t transposed(std::uint64_t x)
@@ -68,7 +62,7 @@ namespace {
             std::span<const std::byte> taken;
             if (!take(bytes, taken))
                 return false;
-            value = bigEndian64(taken);
+            value = bigEndian(taken);
             return true;
         }
 

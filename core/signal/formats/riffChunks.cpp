@@ -1,9 +1,10 @@
-#include "signal/formats/listChunk.h"
+#include "signal/formats/riffChunks.h"
+
+#include "signal/formats/bytes.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cstring>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -14,14 +15,6 @@ namespace {
 
     constexpr Index wordBytes = 4;
     constexpr Index listLimitBytes = Index(16) << 20; ///< bytes to examine
-
-    std::uint32_t wordValue(std::span<const std::byte> bytes, bool isBigEndian)
-    {
-        std::uint32_t value = 0;
-        for (std::size_t i = 0; i < wordBytes; ++i)
-            value = value << 8 | std::to_integer<std::uint32_t>(bytes[isBigEndian ? i : wordBytes - 1 - i]);
-        return value;
-    }
 
     /// Whether the library stops at a name: one that is not part of the list, or invalid.
     bool isEnd(std::string_view name)
@@ -39,10 +32,24 @@ namespace {
 
     std::string_view nameAt(std::span<const std::byte> bytes)
     {
-        return {reinterpret_cast<const char *>(bytes.data()), std::min<std::size_t>(bytes.size(), wordBytes)};
+        return asText(bytes).substr(0, wordBytes);
     }
 
 } // namespace
+
+std::optional<RiffChunk> riffChunkAt(const FileBytes &file, Index offset)
+{
+    std::array<std::byte, chunkHeadBytes> head;
+    if (file.readAt(offset, head) < head.size())
+        return std::nullopt;
+    return RiffChunk{std::string(nameAt(head)), offset + chunkHeadBytes,
+                     Index(littleEndian(std::span(head).last(wordBytes)))};
+}
+
+bool isWave(const FileBytes &file, std::string_view kind)
+{
+    return file.hasAt(0, kind) && file.hasAt(riffHeadBytes - wordBytes, "WAVE");
+}
 
 bool isChunkHead(std::span<const std::byte> bytes)
 {
@@ -51,7 +58,8 @@ bool isChunkHead(std::span<const std::byte> bytes)
     const std::string_view name = nameAt(bytes);
     const bool isPrintable = std::all_of(name.begin(), name.end(), [](char c) { return c >= ' ' && c <= '~'; });
     return isPrintable
-           && (hasKnownName(name) || wordValue(bytes.subspan(wordBytes, wordBytes), false) <= listLimitBytes);
+           && (hasKnownName(name)
+               || littleEndian(bytes.subspan(wordBytes, wordBytes)) <= std::uint64_t(listLimitBytes));
 }
 
 BehindSamples behindSamples(std::span<const std::byte> bytes, bool isOdd, bool isAll)
@@ -86,7 +94,7 @@ Index chunksAtEnd(const FileBytes &file, Index declaredEnd, Index begin, Index f
         const std::string_view name = nameAt(head);
         if (!std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == ' '; }))
             continue;
-        const Index length = wordValue(head.last(wordBytes), false);
+        const auto length = Index(littleEndian(head.last(wordBytes)));
         const Index end = at + chunkHeadBytes + length;
         if (!starts.contains(end) && !starts.contains(end + length % 2))
             continue;
@@ -105,16 +113,16 @@ bool leadsBackwards(const FileBytes &file, Index chunk)
     std::array<std::byte, 2 * wordBytes> head;
     if (file.readAt(0, kind) < kind.size() || file.readAt(chunk, head) < head.size())
         return false;
-    const bool isBigEndian = std::memcmp(kind.data(), "RIFX", kind.size()) == 0;
-    const Index length = std::min<Index>(wordValue(std::span(head).last(wordBytes), isBigEndian),
-                                         file.size() - chunk - std::ssize(head));
+    const auto value = asText(kind) == "RIFX" ? bigEndian : littleEndian;
+    const Index length =
+        std::min(Index(value(std::span(head).last(wordBytes))), file.size() - chunk - std::ssize(head));
     std::vector<std::byte> bytes(std::size_t(std::clamp<Index>(length, 0, listLimitBytes)));
     bytes.resize(file.readAt(chunk + std::ssize(head), bytes));
 
     Index at = 0;
     while (at + 2 * wordBytes <= std::ssize(bytes)) {
         const auto word = [&](Index place) { return std::span(bytes).subspan(std::size_t(place)).first(wordBytes); };
-        const std::string_view name(reinterpret_cast<const char *>(word(at).data()), wordBytes);
+        const std::string_view name = asText(word(at));
         at += wordBytes;
         if (name == "INFO" || name == "adtl")
             continue;
@@ -122,7 +130,7 @@ bool leadsBackwards(const FileBytes &file, Index chunk)
             return true;
         if (isEnd(name))
             return false;
-        const Index size = wordValue(word(at), isBigEndian);
+        const auto size = Index(value(word(at)));
         at += wordBytes;
         if (at + size + size % 2 > 0xffffffff)
             return true;

@@ -2,12 +2,30 @@
 
 #include "signal/FileBytes.h"
 
+#include <optional>
 #include <span>
+#include <string>
 
 namespace faintline {
 
-/// Bytes of a RIFF chunk's name and length.
+/// Bytes of a RIFF file's beginning: its kind, length and "WAVE"; and of a chunk's name and length.
+constexpr Index riffHeadBytes = 12;
 constexpr Index chunkHeadBytes = 8;
+
+/// A chunk of a RIFF file: its name, and where its content lies.
+struct RiffChunk {
+    std::string name;
+    Index offset = 0;
+    Index length = 0;
+
+    Index end() const { return offset + length + length % 2; } ///< with the padding
+};
+
+/// The chunk whose head lies there; nothing beyond the end of the file.
+std::optional<RiffChunk> riffChunkAt(const FileBytes &file, Index offset);
+
+/// Whether a file begins as a WAV file of that kind: "RIFF", or "RF64" with lengths of 64 bits.
+bool isWave(const FileBytes &file, std::string_view kind);
 
 /// Whether bytes begin as a RIFF chunk does, rather than as samples: a name of four printable characters, and a length
 /// of at most 16 MiB, or the name of a chunk that programs write behind samples.

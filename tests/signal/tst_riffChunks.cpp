@@ -1,4 +1,4 @@
-#include "signal/formats/listChunk.h"
+#include "signal/formats/riffChunks.h"
 #include "support/test.h"
 
 using namespace faintline;
@@ -23,7 +23,7 @@ QByteArray fileWith(const QByteArray &list, bool isBigEndian = false)
 } // namespace
 
 /// Lists of a RIFF file whose lengths would lead a parser of 32 bits backwards.
-class tst_listChunk : public QObject
+class tst_riffChunks : public QObject
 {
     Q_OBJECT
 
@@ -80,5 +80,5 @@ private:
     QTemporaryDir m_folder;
 };
 
-FAINTLINE_TEST(tst_listChunk)
-#include "tst_listChunk.moc"
+FAINTLINE_TEST(tst_riffChunks)
+#include "tst_riffChunks.moc"
