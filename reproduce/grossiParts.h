@@ -1,7 +1,7 @@
 #pragma once
 
 #include "evaluate/sequential/simulate.h"
-#include "reproduce/Reproduction.h"
+#include "reproduce/papers.h"
 
 #include <array>
 #include <limits>
@@ -9,11 +9,7 @@
 
 namespace faintline {
 
-// Shared by the parts of the reproduction of Grossi and Lops (reproduceGrossi.h), one file per figure.
-
-Reproducible grossiStages();       ///< Figure 2
-Reproducible grossiTrajectories(); ///< Figure 3
-Reproducible grossiRadar();        ///< Figure 4
+// Shared by the parts of the reproduction of Grossi and Lops, one file per figure.
 
 /// Standard deviations of the walks' steps, in cells; the last is the uniform law.
 constexpr std::array<double, 5> walkDeviations{0.5, 1.0, 2.0, 5.0, std::numeric_limits<double>::infinity()};

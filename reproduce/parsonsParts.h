@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/Interval.h"
-#include "reproduce/Reproduction.h"
+#include "reproduce/papers.h"
 #include "scene/PingScene.h"
 
 #include <cstdint>
@@ -12,11 +12,7 @@
 
 namespace faintline {
 
-// Shared by the parts of the reproduction of Parsons (reproduceParsons.h), one file per part.
-
-std::vector<Reproducible> parsonsChain();       ///< Figure 1
-std::vector<Reproducible> parsonsFalseAlarms(); ///< Figures 2 and 3
-std::vector<Reproducible> parsonsDetection();   ///< Figures 4 and 5
+// Shared by the parts of the reproduction of Parsons, one file per part.
 
 constexpr int settlingPings = 200; ///< before counting starts
 

@@ -1,13 +1,10 @@
-#include "reproduce/reproduceParsons.h"
+#include "reproduce/parsonsParts.h"
 
 #include "base/Field.h"
 #include "base/logmath.h"
-#include "reproduce/parsonsParts.h"
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <utility>
 
 namespace faintline {
 
@@ -45,14 +42,9 @@ namespace {
 
 } // namespace
 
-std::vector<Reproducible> parsonsReproducibles()
+Reproducible parsonsTable2()
 {
-    std::vector<Reproducible> all = parsonsChain();
-    for (std::vector<Reproducible> part : {parsonsFalseAlarms(), parsonsDetection()})
-        std::move(part.begin(), part.end(), std::back_inserter(all));
-    all.push_back(
-        {"parsons:table2", "Parsons 2008, Table 2: Pd of one ping by conventional processing", reproduceTable2});
-    return all;
+    return {"parsons:table2", "Parsons 2008, Table 2: Pd of one ping by conventional processing", reproduceTable2};
 }
 
 } // namespace faintline

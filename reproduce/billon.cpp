@@ -1,4 +1,4 @@
-#include "reproduce/reproduceBillon.h"
+#include "reproduce/papers.h"
 
 #include "base/logmath.h"
 #include "evaluate/experiments/LineTrials.h"
@@ -14,9 +14,9 @@ namespace faintline {
 
 namespace {
 
-    constexpr int runs = 60;
+    constexpr int billonRuns = 60;
     constexpr int quickRuns = 12;
-    constexpr double tolerance = 0.04; ///< appropriate for 20 runs
+    constexpr double pdTolerance = 0.04; ///< appropriate for 20 runs
     constexpr double paperSignals = 90.0;
     constexpr double none = -1.0; ///< a cell that is empty in the table
 
@@ -111,7 +111,7 @@ namespace {
     {
         Experiment experiment;
         experiment.seed = int(options.seed);
-        experiment.trials = options.quick ? quickRuns : runs;
+        experiment.trials = options.quick ? quickRuns : billonRuns;
         experiment.durationSeconds = table.durationWindows;
         for (const Row &row : table.rows)
             experiment.detectors.push_back(detectorOf(row.detector, table.durationWindows));
@@ -203,11 +203,11 @@ namespace {
                 }
                 if (c < row.reference.size()) {
                     cell.reference = row.reference[c];
-                    cell.tolerance = tolerance;
+                    cell.tolerance = pdTolerance;
                 }
                 cell.ours = points[d][c].pd;
                 cell.interval = points[d][c].interval;
-                cell.runs = options.quick ? quickRuns : runs;
+                cell.runs = options.quick ? quickRuns : billonRuns;
                 made.cells.push_back(std::move(cell));
             }
         }
