@@ -86,13 +86,9 @@ namespace {
         if (!options.rocSnrDb)
             return snrs.size() / 2;
         const auto found = std::ranges::find(snrs, *options.rocSnrDb);
-        if (found == snrs.end()) {
-            std::string all;
-            for (const double db : snrs)
-                all += (all.empty() ? "" : ", ") + formatNumber(db);
-            throw Error("--roc-snr",
-                        formatNumber(*options.rocSnrDb) + " dB is not one of the experiment's SNRs: " + all);
-        }
+        if (found == snrs.end())
+            throw Error("--roc-snr", formatNumber(*options.rocSnrDb)
+                                         + " dB is not one of the experiment's SNRs: " + listed(snrs, formatNumber));
         return std::size_t(found - snrs.begin());
     }
 

@@ -164,12 +164,8 @@ namespace {
         switch (field.kind) {
         case FieldKind::Flag:
             return "true or false";
-        case FieldKind::Choice: {
-            std::string all;
-            for (const std::string &choice : field.choices)
-                all += (all.empty() ? "" : " | ") + choice;
-            return all;
-        }
+        case FieldKind::Choice:
+            return listed(field.choices, {}, " | ");
         case FieldKind::Integer:
         case FieldKind::Number:
         case FieldKind::Numbers:

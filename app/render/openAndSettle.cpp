@@ -12,6 +12,7 @@
 #include "app/render/settleViews.h"
 #include "app/views/WindowViews.h"
 #include "app/window/MainWindow.h"
+#include "base/oneLine.h"
 
 #include <QEventLoop>
 
@@ -52,12 +53,9 @@ namespace {
     void offerOnly(const std::vector<std::string> &offered, const char *ofWhat, const std::vector<std::string> &views)
     {
         for (const std::string &view : views)
-            if (std::find(offered.begin(), offered.end(), view) == offered.end()) {
-                std::string all;
-                for (const std::string &one : offered)
-                    all += (all.empty() ? "" : ", ") + one;
-                throw Error("--view " + view, std::string("requires a recording; views of ") + ofWhat + " are " + all);
-            }
+            if (std::find(offered.begin(), offered.end(), view) == offered.end())
+                throw Error("--view " + view,
+                            std::string("requires a recording; views of ") + ofWhat + " are " + listed(offered));
     }
 
 } // namespace

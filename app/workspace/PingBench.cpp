@@ -6,6 +6,7 @@
 #include "app/workspace/PingRegulation.h"
 #include "app/workspace/pingReading.h"
 #include "app/workspace/strongestPlace.h"
+#include "base/oneLine.h"
 #include "frames/pictureCuts.h"
 #include "widgets/base/TimeStack.h"
 #include "widgets/base/labelText.h"
@@ -363,9 +364,7 @@ void PingBench::setAxes(std::size_t along, std::size_t across)
 void PingBench::setAxes(const std::vector<std::string> &names)
 {
     const std::vector<Axis> axes = m_document.analysis() ? m_document.analysis()->grid().axes : std::vector<Axis>();
-    std::string known;
-    for (const Axis &axis : axes)
-        known += (known.empty() ? "" : ", ") + axis.name;
+    const std::string known = listed(axes, &Axis::name);
     std::vector<std::size_t> found;
     for (const std::string &name : names) {
         const auto at = std::ranges::find(axes, name, &Axis::name);

@@ -3,6 +3,7 @@
 #include "base/Overloaded.h"
 #include "base/logmath.h"
 #include "base/numberText.h"
+#include "base/oneLine.h"
 #include "refine/secondLook.h"
 
 #include <type_traits>
@@ -30,10 +31,11 @@ namespace {
 
     std::string modelChangesText(const Event &event)
     {
-        std::string text;
-        for (const auto &[seconds, model] : event.modelChanges)
-            text += (text.empty() ? "" : ";") + formatNumber(seconds) + ':' + nameOfBankModel(model);
-        return text;
+        const auto textOf = [](const auto &change) {
+            const auto &[seconds, model] = change;
+            return formatNumber(seconds) + ':' + nameOfBankModel(model);
+        };
+        return listed(event.modelChanges, textOf, ";");
     }
 
 } // namespace

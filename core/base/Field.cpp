@@ -1,20 +1,13 @@
 #include "base/Field.h"
 
 #include "base/Error.h"
+#include "base/oneLine.h"
 
 #include <cmath>
 
 namespace faintline {
 
 namespace {
-
-    std::string join(const std::vector<std::string> &words)
-    {
-        std::string all;
-        for (const std::string &word : words)
-            all += (all.empty() ? "" : ", ") + word;
-        return all;
-    }
 
     [[noreturn]] void refuse(const FieldInfo &info, std::string_view text, const std::string &why)
     {
@@ -130,13 +123,7 @@ std::string formatFieldValue(const FieldValue &value)
         std::string operator()(int v) const { return std::to_string(v); }
         std::string operator()(double v) const { return formatNumber(v); }
         std::string operator()(const std::string &v) const { return v; }
-        std::string operator()(const std::vector<double> &v) const
-        {
-            std::string all;
-            for (double number : v)
-                all += (all.empty() ? "" : ", ") + formatNumber(number);
-            return all;
-        }
+        std::string operator()(const std::vector<double> &v) const { return listed(v, formatNumber); }
     };
     return std::visit(Formatter{}, value);
 }
@@ -188,7 +175,7 @@ void checkFieldValue(const FieldInfo &info, const FieldValue &value)
             for (const std::string &choice : info.choices)
                 known = known || choice == std::get<std::string>(value);
         if (!known)
-            refuse(info, text, "must be one of " + join(info.choices));
+            refuse(info, text, "must be one of " + listed(info.choices));
         break;
     }
     }

@@ -1,5 +1,7 @@
 #include "base/json.h"
 
+#include "base/oneLine.h"
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -8,14 +10,6 @@
 namespace faintline {
 
 namespace {
-
-    std::string list(const std::vector<std::string> &words)
-    {
-        std::string all;
-        for (const std::string &word : words)
-            all += (all.empty() ? "" : ", ") + word;
-        return all;
-    }
 
     std::string place(std::string_view text, std::size_t byte)
     {
@@ -130,7 +124,7 @@ void checkKeys(const Json &object, const std::string &where, const std::vector<s
         throw Error(where.empty() ? "JSON" : where, "must be an object, { … }");
     for (const auto &item : object.items())
         if (std::find(known.begin(), known.end(), item.key()) == known.end())
-            throw Error(jsonName(where, item.key()), "unknown; expected one of " + list(known));
+            throw Error(jsonName(where, item.key()), "unknown; expected one of " + listed(known));
 }
 
 FieldValue fieldValueFromJson(const Json &value, const FieldInfo &info)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -14,6 +15,20 @@ std::string beginning(const std::string &text, std::size_t mostBytes);
 
 /// Length in bytes of the UTF-8 character that begins at `at`; 0 if none does.
 std::size_t characterLength(std::string_view text, std::size_t at);
+
+/// The words that a function, or a member, makes of each, as "a, b, c"; by default each itself.
+template <class Range, class WordOf = std::identity>
+std::string listed(const Range &range, const WordOf &wordOf = {}, std::string_view separator = ", ")
+{
+    std::string list;
+    bool isFirst = true;
+    for (const auto &one : range) {
+        list += isFirst ? std::string_view() : separator;
+        list += std::invoke(wordOf, one);
+        isFirst = false;
+    }
+    return list;
+}
 
 /// Maximum length of a message in bytes, whatever a file contains.
 constexpr std::size_t longestMessage = 1000;

@@ -1,6 +1,7 @@
 #include "exchange/ModelFile.h"
 
 #include "base/json.h"
+#include "base/oneLine.h"
 #include "detect/SumDetector.h"
 #include "signal/formats/jsonFields.h"
 
@@ -112,10 +113,8 @@ namespace {
 
     std::string cellsText(const std::vector<Index> &cells)
     {
-        std::string text;
-        for (const Index n : cells)
-            text += (text.empty() ? "" : " × ") + std::to_string(n);
-        return text;
+        return listed(
+            cells, [](Index n) { return std::to_string(n); }, " × ");
     }
 
     /// Checks what all models have.

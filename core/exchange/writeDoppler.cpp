@@ -5,6 +5,7 @@
 #include "base/files/AtomicFile.h"
 #include "base/files/fileName.h"
 #include "base/json.h"
+#include "base/oneLine.h"
 #include "inspect/doppler/dopplerFit.h"
 
 #include <algorithm>
@@ -152,10 +153,7 @@ std::string valueText(double value, const DopplerBounds &bounds)
 
 std::string eventNumbers(const DopplerReport &report)
 {
-    std::string numbers;
-    for (const Event &event : report.events)
-        numbers += (numbers.empty() ? "" : ", ") + std::to_string(event.id);
-    return numbers;
+    return listed(report.events, [](const Event &event) { return std::to_string(event.id); });
 }
 
 std::vector<std::string> dopplerNotes(const DopplerReport &report)

@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "base/Field.h"
+#include "base/oneLine.h"
 
 namespace faintline {
 
@@ -49,13 +50,11 @@ const std::vector<NamedMotion> &sonarMotions()
 
 const SonarMotion &sonarMotion(std::string_view name)
 {
-    std::string known;
-    for (const NamedMotion &entry : sonarMotions()) {
-        if (entry.name == name)
-            return entry.motion;
-        known += (known.empty() ? "" : ", ") + entry.name;
-    }
-    throw fieldError("model.motion", std::string(name), "must be one of " + known);
+    const auto found = std::ranges::find(sonarMotions(), name, &NamedMotion::name);
+    if (found == sonarMotions().end())
+        throw fieldError("model.motion", std::string(name),
+                         "must be one of " + listed(sonarMotions(), &NamedMotion::name));
+    return found->motion;
 }
 
 } // namespace faintline

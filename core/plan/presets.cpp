@@ -1,6 +1,7 @@
 #include "plan/AnalysisSettings.h"
 
 #include "base/Error.h"
+#include "base/oneLine.h"
 
 namespace faintline {
 
@@ -144,13 +145,10 @@ const std::vector<Preset> &presets()
 
 const Preset &preset(std::string_view name)
 {
-    std::string known;
-    for (const Preset &p : presets()) {
-        if (p.name == name)
-            return p;
-        known += (known.empty() ? "" : ", ") + p.name;
-    }
-    throw Error("preset " + std::string(name), "unknown; choose one of " + known);
+    const auto found = std::ranges::find(presets(), name, &Preset::name);
+    if (found == presets().end())
+        throw Error("preset " + std::string(name), "unknown; choose one of " + listed(presets(), &Preset::name));
+    return *found;
 }
 
 } // namespace faintline

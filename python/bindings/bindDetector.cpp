@@ -1,5 +1,6 @@
 #include "bindings/bind.h"
 
+#include "base/oneLine.h"
 #include "bindings/arrays.h"
 #include "bindings/interruptible.h"
 #include "bindings/jsonFromPython.h"
@@ -98,9 +99,7 @@ namespace {
 
         std::string shapeText() const
         {
-            std::string text;
-            for (const Axis &axis : m_axes)
-                text += (text.empty() ? "" : ", ") + std::to_string(axis.count);
+            const std::string text = listed(m_axes, [](const Axis &axis) { return std::to_string(axis.count); });
             return "(" + text + (m_axes.size() == 1 ? ",)" : ")");
         }
 

@@ -1,6 +1,7 @@
 #include "bindings/bind.h"
 
 #include "base/Error.h"
+#include "base/oneLine.h"
 #include "bindings/Source.h"
 #include "bindings/arrays.h"
 #include "bindings/jsonFromPython.h"
@@ -77,9 +78,8 @@ namespace {
 
     std::string framesText(const HeldFrames &self)
     {
-        std::string cells;
-        for (const Axis &axis : self.frames->grid().axes)
-            cells += (cells.empty() ? "" : " × ") + std::to_string(axis.count) + " (" + axis.name + ")";
+        const auto cellsOf = [](const Axis &axis) { return std::to_string(axis.count) + " (" + axis.name + ")"; };
+        const std::string cells = listed(self.frames->grid().axes, cellsOf, " × ");
         return py::str("<faintline.Frames {} of {} cells, {:g} s a frame>")
             .format(self.frames->time().count, cells, self.frames->time().step);
     }

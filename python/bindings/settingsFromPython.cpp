@@ -1,6 +1,7 @@
 #include "bindings/settingsFromPython.h"
 
 #include "base/json.h"
+#include "base/oneLine.h"
 #include "bindings/jsonFromPython.h"
 #include "plan/firstSettings.h"
 
@@ -79,11 +80,8 @@ std::string settingOfKeyword(const std::string &keyword)
         throw Error(
             keyword,
             "unknown setting; faintline.describe() lists all, by full names for settings={...} and by keywords");
-    std::string all;
-    for (const std::string &name : found)
-        all += (all.empty() ? "" : ", ") + name;
-    throw Error(keyword, "is the name of several settings: " + all + "; give the full one, settings={'" + found.front()
-                             + "': ...}");
+    throw Error(keyword, "is the name of several settings: " + listed(found) + "; give the full one, settings={'"
+                             + found.front() + "': ...}");
 }
 
 namespace {

@@ -1,6 +1,9 @@
 #include "evaluate/experiments/peers.h"
 
 #include "base/Error.h"
+#include "base/oneLine.h"
+
+#include <algorithm>
 
 namespace faintline {
 
@@ -33,13 +36,11 @@ std::vector<DetectorUnderTest> peers(double durationWindows)
 
 DetectorUnderTest peer(std::string_view name, double durationWindows)
 {
-    std::string names;
-    for (const DetectorUnderTest &one : peers(durationWindows)) {
-        if (one.name == name)
-            return one;
-        names += (names.empty() ? "" : ", ") + one.name;
-    }
-    throw Error("detector " + std::string(name), "unknown; choose one of " + names);
+    const std::vector<DetectorUnderTest> all = peers(durationWindows);
+    const auto found = std::ranges::find(all, name, &DetectorUnderTest::name);
+    if (found == all.end())
+        throw Error("detector " + std::string(name), "unknown; choose one of " + listed(all, &DetectorUnderTest::name));
+    return *found;
 }
 
 } // namespace faintline

@@ -3,6 +3,7 @@
 #include "base/Error.h"
 #include "base/json.h"
 #include "base/logmath.h"
+#include "base/oneLine.h"
 #include "detect/averagedStages.h"
 #include "evaluate/sequential/simulate.h"
 #include "evaluate/theory/walkOnLine.h"
@@ -105,10 +106,8 @@ void setScanTestField(ScanTest &test, const std::string &assignment)
     for (const Field<ScanTest> &one : ScanTest::fields())
         if (one.name == name && equals != std::string::npos)
             return one.set(test, parseFieldValue(one, assignment.substr(equals + 1)));
-    std::string names;
-    for (const Field<ScanTest> &one : ScanTest::fields())
-        names += (names.empty() ? "" : ", ") + one.name;
-    throw Error(assignment, "must be name=value; settings of a radar test are " + names);
+    throw Error(assignment,
+                "must be name=value; settings of a radar test are " + listed(ScanTest::fields(), &FieldInfo::name));
 }
 
 void checkScanTest(const ScanTest &test)

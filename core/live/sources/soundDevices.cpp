@@ -1,6 +1,7 @@
 #include "live/sources/soundDevices.h"
 
 #include "base/Error.h"
+#include "base/oneLine.h"
 
 #include <algorithm>
 #include <cctype>
@@ -14,14 +15,6 @@ namespace {
     {
         std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
         return text;
-    }
-
-    std::string namesOf(const std::vector<SoundDevice> &devices)
-    {
-        std::string names;
-        for (const SoundDevice &device : devices)
-            names += (names.empty() ? "" : ", ") + device.name;
-        return names;
     }
 
 } // namespace
@@ -69,7 +62,7 @@ SoundDevice findSoundDevice(const std::vector<SoundDevice> &devices, const std::
     if (fitting == 1)
         return *find(contains);
     throw Error(where, (fitting == 0 ? "there is no such sound device; " : "fits more than one sound device; ")
-                           + ("there are: " + namesOf(able)));
+                           + ("there are: " + listed(able, &SoundDevice::name)));
 }
 
 } // namespace faintline

@@ -1,6 +1,7 @@
 #include "signal/formats/SampleType.h"
 
 #include "base/Error.h"
+#include "base/oneLine.h"
 
 #include <array>
 #include <bit>
@@ -89,10 +90,8 @@ std::string SampleType::name() const
 
 std::string sampleTypeList()
 {
-    std::string all;
-    for (const std::string_view number : numberNames)
-        all += (all.empty() ? "" : ", ") + std::string("c") + std::string(number);
-    return all + " (complex) or the same with r (real), with _le or _be for the byte order";
+    return listed(numberNames, [](std::string_view number) { return "c" + std::string(number); })
+           + " (complex) or the same with r (real), with _le or _be for the byte order";
 }
 
 SampleType parseSampleType(std::string_view name, const std::string &where)
