@@ -15,7 +15,7 @@ namespace {
 
 constexpr double snr = 2.0;
 
-SequentialStudy study(const std::vector<KinematicAxis> &axes, const std::vector<bool> &isFolded, double actualSnr)
+SequentialStudy judgedStudy(const std::vector<KinematicAxis> &axes, const std::vector<bool> &isFolded, double actualSnr)
 {
     SequentialStudy made = test::study(axes, isFolded, snr, actualSnr);
     made.seed = 23;
@@ -88,7 +88,7 @@ private slots:
         QFETCH(int, stages);
         constexpr Index cells = 6;
         const KinematicAxis line = axis(cells, {0.5, 0.25}, isCyclic);
-        const SequentialStudy made = study({line}, {false}, snr);
+        const SequentialStudy made = judgedStudy({line}, {false}, snr);
         const TrajectorySampler sampler(made.model);
         TrajectoryJudge judge(made, sampler);
         Index largestOfAll = 0;
@@ -118,7 +118,7 @@ private slots:
     {
         const KinematicAxis rows = axis(2, {0.6, 0.2});
         const KinematicAxis columns = axis(4, {0.5, 0.25});
-        const SequentialStudy made = study({rows, columns}, {false, false}, snr);
+        const SequentialStudy made = judgedStudy({rows, columns}, {false, false}, snr);
         const TrajectorySampler sampler(made.model);
         TrajectoryJudge judge(made, sampler);
         int differ = 0;
@@ -149,7 +149,7 @@ private slots:
     void theBestOfFoldedCellsStandsForThem()
     {
         const KinematicAxis line = axis(5, {0.5, 0.25});
-        const SequentialStudy made = study({line, axis(3)}, {false, true}, snr);
+        const SequentialStudy made = judgedStudy({line, axis(3)}, {false, true}, snr);
         const TrajectorySampler sampler(made.model);
         TrajectoryJudge judge(made, sampler);
         for (Index number = 0; number < 12; ++number) {
@@ -172,7 +172,7 @@ private slots:
 
     void whereAllIsFoldedTheFoldedCellIsThePosition()
     {
-        const SequentialStudy made = study({axis(7)}, {true}, 5.0);
+        const SequentialStudy made = judgedStudy({axis(7)}, {true}, 5.0);
         const TrajectorySampler sampler(made.model);
         TrajectoryJudge judge(made, sampler);
         for (Index number = 0; number < 20; ++number) {
@@ -192,7 +192,7 @@ private slots:
 
     void whatIsLoudIsFollowedExactly()
     {
-        const SequentialStudy made = study({axis(50, {0.5, 0.25})}, {false}, 1e6);
+        const SequentialStudy made = judgedStudy({axis(50, {0.5, 0.25})}, {false}, 1e6);
         const TrajectorySampler sampler(made.model);
         TrajectoryJudge judge(made, sampler);
         for (Index number = 0; number < 20; ++number)

@@ -13,7 +13,7 @@ using namespace faintline;
 
 namespace {
 
-MarkovModel modelOf(const ModelSettings &settings, Index cells)
+MarkovModel blockModelOf(const ModelSettings &settings, Index cells)
 {
     return makeModel(settings, {{{"f", "Hz", 0.0, 1.0, cells, true}}});
 }
@@ -26,7 +26,7 @@ std::function<std::unique_ptr<Detector>()> blocksOf(const MarkovModel &model)
 } // namespace
 
 /// Rare rates of a detector that decides at the ends of blocks, against a closed form and against simulation.
-class tst_blockRates : public QObject
+class tst_measureBlockRates : public QObject
 {
     Q_OBJECT
 
@@ -39,7 +39,7 @@ private slots:
         constexpr Index frames = 100; // with fewer, α exceeds ½, where e^(αy) has no variance
         ModelSettings settings = laws::steady();
         settings.likelihood = LikelihoodKind::Linear;
-        const MarkovModel model = modelOf(settings, cells);
+        const MarkovModel model = blockModelOf(settings, cells);
         SplittingSettings splitting;
         splitting.leastLnRate = -27.0;
         const RareRates rates = measureBlockRates(
@@ -74,7 +74,7 @@ private slots:
         constexpr int blocks = 30000;
         const auto makeNoise = [] { return spectralNoise({}, 16); };
         const auto noise = makeNoise();
-        const MarkovModel model = modelOf(law == 0 ? ModelSettings() : laws::billon(), noise->cells());
+        const MarkovModel model = blockModelOf(law == 0 ? ModelSettings() : laws::billon(), noise->cells());
         SplittingSettings splitting;
         splitting.leastLnRate = -20.0;
         const RareRates rates = measureBlockRates(blocksOf(model), makeNoise, frames, splitting);
@@ -108,7 +108,7 @@ private slots:
 
     void threadsChangeNothing()
     {
-        const MarkovModel model = modelOf(ModelSettings(), 32);
+        const MarkovModel model = blockModelOf(ModelSettings(), 32);
         const auto noise = [] { return independentNoise(32); };
         SplittingSettings splitting;
         splitting.leastLnRate = -13.0;
@@ -121,10 +121,10 @@ private slots:
 
     void blocksThatAreTooLongAreEmpty()
     {
-        const MarkovModel model = modelOf(ModelSettings(), 8);
+        const MarkovModel model = blockModelOf(ModelSettings(), 8);
         QVERIFY(measureBlockRates(blocksOf(model), [] { return independentNoise(8); }, 100000, {}).isEmpty());
     }
 };
 
-FAINTLINE_TEST(tst_blockRates)
-#include "tst_blockRates.moc"
+FAINTLINE_TEST(tst_measureBlockRates)
+#include "tst_measureBlockRates.moc"

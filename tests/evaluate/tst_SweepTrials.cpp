@@ -60,7 +60,7 @@ Experiment with(const std::string &parameter, const std::vector<double> &values)
 } // namespace
 
 /// The values of one setting on the same lines, by the engine that all experiments share.
-class tst_SweepExperiment : public QObject
+class tst_SweepTrials : public QObject
 {
     Q_OBJECT
 
@@ -283,5 +283,5 @@ private slots:
     }
 };
 
-FAINTLINE_TEST(tst_SweepExperiment)
-#include "tst_SweepExperiment.moc"
+FAINTLINE_TEST(tst_SweepTrials)
+#include "tst_SweepTrials.moc"

@@ -56,7 +56,7 @@ std::vector<std::int16_t> magnitudes()
 } // namespace
 
 /// Stacks of recorded pings: their numbers, what is said or guessed of them, and that normalised ones stay as they are.
-class tst_openPings : public QObject
+class tst_openFramesOfPings : public QObject
 {
     Q_OBJECT
 
@@ -184,7 +184,7 @@ private slots:
         QTest::newRow("big-endian") << QByteArray("'>i2'") << QByteArray() << QByteArray("(40, 60, 8)")
                                     << QByteArray("holds '>i2'; expected integers of 8, 16 or 32 bits");
         QTest::newRow("records") << QByteArray("[('a', '<i2')]") << QByteArray() << QByteArray("(40, 60, 8)")
-                                 << QByteArray("expected float32 or float64");
+                                 << QByteArray("holds records; expected numbers");
         QTest::newRow("truncated") << QByteArray("'<i2'") << QByteArray() << QByteArray("(41, 60, 8)")
                                    << QByteArray("is truncated: its shape requires 19680 values");
         QTest::newRow("nothing") << QByteArray("'<i2'") << QByteArray() << QByteArray("(0, 60, 8)")
@@ -254,5 +254,5 @@ private:
     std::unique_ptr<QTemporaryDir> m_folder;
 };
 
-FAINTLINE_TEST(tst_openPings)
-#include "tst_openPings.moc"
+FAINTLINE_TEST(tst_openFramesOfPings)
+#include "tst_openFramesOfPings.moc"
