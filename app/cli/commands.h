@@ -141,15 +141,4 @@ void checkDifferent(const std::vector<std::string> &outputs);
 /// The same, and throws if one cannot be written, before a computation whose result would be lost.
 void checkOutputs(const std::vector<std::string> &paths);
 
-/// Calls `make` and prefixes errors with the file's name.
-template <class Make>
-auto inFile(const std::string &path, const Make &make)
-{
-    try {
-        return make();
-    } catch (const Error &error) {
-        throw error.in(path);
-    }
-}
-
 } // namespace faintline::cli

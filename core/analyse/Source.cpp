@@ -83,14 +83,12 @@ Source sourceOf(const std::string &path, const OpenOptions &options)
 Source sourceOfScene(const Json &scene, const std::string &path)
 {
     Source source{path, {}, {}};
-    try {
+    inFile(path, [&] {
         if (isPingScene(scene))
             source.pings = pingSceneFromJson(scene);
         else
             source.scene = lineSceneFromJson(scene);
-    } catch (const Error &error) {
-        throw error.in(path);
-    }
+    });
     return source;
 }
 

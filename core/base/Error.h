@@ -42,6 +42,17 @@ private:
     std::string m_field;
 };
 
+/// Calls `make` and tells of errors in it that they are in that file.
+template <class Make>
+auto inFile(const std::string &path, const Make &make)
+{
+    try {
+        return make();
+    } catch (const Error &error) {
+        throw error.in(path);
+    }
+}
+
 /// Thrown by a long computation that was asked to stop through its RunContext; partial results are discarded.
 class Cancelled : public std::exception
 {

@@ -127,6 +127,16 @@ void checkKeys(const Json &object, const std::string &where, const std::vector<s
             throw Error(jsonName(where, item.key()), "unknown; expected one of " + listed(known));
 }
 
+std::vector<Json> listOf(const Json &object, const std::string &key, const std::string &where)
+{
+    const auto found = object.find(key);
+    if (found == object.end())
+        return {};
+    if (!found->is_array())
+        throw Error(jsonName(where, key), "must be a list, [ … ]");
+    return {found->begin(), found->end()};
+}
+
 FieldValue fieldValueFromJson(const Json &value, const FieldInfo &info)
 {
     FieldValue result = shown(value);

@@ -35,6 +35,9 @@ inline std::string jsonName(const std::string &where, const std::string &key)
     return where.empty() ? key : where + "." + key;
 }
 
+/// The elements of a list under a key; empty if the key is missing. Throws Error naming `where.key` for other values.
+std::vector<Json> listOf(const Json &object, const std::string &key, const std::string &where = {});
+
 /// Sets the members of a struct for which a JSON object has keys. Throws Error naming `where.key` for keys in neither
 /// the table nor `otherKeys`, and for values of the wrong kind or out of range.
 template <class S>

@@ -183,12 +183,8 @@ ModelFile modelFromJson(const Json &json, const std::string &path)
     const bool scales = flag(json, path, "scaleTransitions");
     if (scales && !json["likelihood"].contains("r0") && !json["likelihood"].contains("snr"))
         throw Error(path + ": scaleTransitions", "needs \"snr\" in the likelihood");
-    try {
-        file.model = {StateSpace(std::move(axes)), likelihood,
-                      scales ? (1.0 + likelihood.snr()) / likelihood.snr() : 1.0};
-    } catch (const Error &error) {
-        throw error.in(path);
-    }
+    const double scale = scales ? (1.0 + likelihood.snr()) / likelihood.snr() : 1.0;
+    file.model = inFile(path, [&] { return MarkovModel{StateSpace(std::move(axes)), likelihood, scale}; });
     if (json.contains("initial") && json["initial"] != "uniform")
         throw Error(path + ": initial", "must be \"uniform\" here");
     file.isSum = choice(json, path, "semiring", std::array<std::string_view, 2>{"max", "sum"}, 0) == 1;
@@ -231,11 +227,7 @@ SequentialModel readSequentialModel(const std::string &path, const FrameCells *f
     if (json.contains("scaleTransitions") && json["scaleTransitions"] != false)
         throw Error(path + ": scaleTransitions",
                     "cannot be used in a sequential test, whose likelihood ratio is exact");
-    try {
-        return makeSequentialModel(axes, isFolded, likelihood, std::move(initial));
-    } catch (const Error &error) {
-        throw error.in(path);
-    }
+    return inFile(path, [&] { return makeSequentialModel(axes, isFolded, likelihood, std::move(initial)); });
 }
 
 } // namespace faintline

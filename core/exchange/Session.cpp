@@ -6,7 +6,6 @@
 #include "base/json.h"
 #include "base/wholeNumber.h"
 #include "exchange/survey/findRecordings.h"
-#include "scene/truthBeside.h"
 #include "signal/Timeline.h"
 #include "signal/formats/SigmfRecording.h"
 #include "signal/openFields.h"

@@ -190,12 +190,9 @@ LineScene lineSceneFromJson(const Json &json)
             throw Error(needed, "is missing; every other key has a default");
     if (const auto noise = json.find("noise"); noise != json.end())
         readFields(*noise, NoiseSettings::fields(), scene.noise, "noise");
-    if (const auto lines = json.find("lines"); lines != json.end()) {
-        if (!lines->is_array())
-            throw Error("lines", "must be a list, [ … ]");
-        scene.lines.resize(lines->size());
-        for (std::size_t i = 0; i < lines->size(); ++i)
-            readFields((*lines)[i], LineSettings::fields(), scene.lines[i], lineName("lines", i));
+    for (const Json &entry : listOf(json, "lines")) {
+        const std::string name = lineName("lines", scene.lines.size());
+        readFields(entry, LineSettings::fields(), scene.lines.emplace_back(), name);
     }
     checkScene(scene);
     return scene;

@@ -19,17 +19,6 @@ namespace {
         return targetName(target) + ".legs[" + std::to_string(leg) + "]";
     }
 
-    /// The objects of a list under a key; empty if the key is missing.
-    std::vector<Json> listOf(const Json &object, const std::string &key, const std::string &where)
-    {
-        const auto found = object.find(key);
-        if (found == object.end())
-            return {};
-        if (!found->is_array())
-            throw Error(jsonName(where, key), "must be a list, [ … ]");
-        return {found->begin(), found->end()};
-    }
-
     void checkTarget(const PingScene &scene, const PingTarget &target, std::size_t i)
     {
         const std::string name = targetName(i);
@@ -242,7 +231,7 @@ PingScene pingSceneFromJson(const Json &json)
         throw Error("kind", "must be \"pings\" for a scene of sonar pings");
     if (const auto found = json.find("reverberation"); found != json.end())
         readFields(*found, Reverberation::fields(), scene.reverberation.emplace(), "reverberation");
-    for (const Json &entry : listOf(json, "targets", {})) {
+    for (const Json &entry : listOf(json, "targets")) {
         const std::size_t i = scene.targets.size();
         PingTarget &target = scene.targets.emplace_back();
         readFields(entry, PingTarget::fields(), target, targetName(i), {"legs"});

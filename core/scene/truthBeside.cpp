@@ -1,9 +1,10 @@
 #include "scene/truthBeside.h"
 
 #include "base/Error.h"
+#include "base/files/fileName.h"
+#include "signal/fileFormats.h"
 
 #include <algorithm>
-#include <filesystem>
 
 namespace faintline {
 
@@ -13,23 +14,13 @@ namespace {
     T readBeside(const std::string &path, T (*fromJson)(const Json &))
     {
         const std::string file = truthPathOf(path);
-        std::error_code ignored;
-        if (!std::filesystem::is_regular_file(file, ignored))
+        if (!isFile(file))
             return {};
         const Json json = readJsonFile(file);
-        try {
-            return fromJson(json);
-        } catch (const Error &error) {
-            throw error.in(file);
-        }
+        return inFile(file, [&] { return fromJson(json); });
     }
 
 } // namespace
-
-std::string truthPathOf(const std::string &path)
-{
-    return std::filesystem::path(path).replace_extension(".truth.json").string();
-}
 
 Truth truthBeside(const std::string &path)
 {

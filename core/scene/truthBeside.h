@@ -8,9 +8,7 @@
 
 namespace faintline {
 
-/// The truth that lies beside a recording or recorded pings: sea.npy has it in sea.truth.json, in the format that
-/// `simulate --truth` writes.
-std::string truthPathOf(const std::string &path);
+// The truth that lies beside a recording or recorded pings (truthPathOf), in the format that `simulate --truth` writes.
 
 /// The lines of a recording; none if there is no such file. Throws Error naming the file.
 Truth truthBeside(const std::string &path);

@@ -13,6 +13,7 @@
 #include "signal/formats/gridFile.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <type_traits>
 
 namespace faintline {
@@ -185,6 +186,11 @@ std::string gridPathOf(const std::string &stackPath)
 std::string gridBeside(const std::string &stackPath)
 {
     return isFile(gridPathOf(stackPath)) ? gridPathOf(stackPath) : std::string();
+}
+
+std::string truthPathOf(const std::string &path)
+{
+    return std::filesystem::path(path).replace_extension(".truth.json").string();
 }
 
 bool holdsFrames(const std::string &path)

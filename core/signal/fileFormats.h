@@ -51,6 +51,9 @@ std::string gridPathOf(const std::string &stackPath);
 /// The same if there is such a file, else empty.
 std::string gridBeside(const std::string &stackPath);
 
+/// Path of the file that states what a recording or a stack is known to hold: sea.truth.json for sea.npy.
+std::string truthPathOf(const std::string &path);
+
 /// Whether a file holds frames (with time and frequency, or any other axes) rather than samples: a NumPy file by its
 /// name, others by content. False if there is no such file.
 bool holdsFrames(const std::string &path);
