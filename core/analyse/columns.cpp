@@ -6,6 +6,7 @@
 #include "base/oneLine.h"
 #include "refine/secondLook.h"
 
+#include <algorithm>
 #include <type_traits>
 
 namespace faintline {
@@ -38,6 +39,15 @@ namespace {
         return listed(event.modelChanges, textOf, ";");
     }
 
+    /// Whether it is not what isOptional of a column leaves out.
+    bool isKnown(const CellValue &value)
+    {
+        return std::visit(Overloaded{[](const std::string &text) { return !text.empty(); },
+                                     [](double number) { return !std::isnan(number); },
+                                     [](auto number) { return number != 0; }},
+                          value);
+    }
+
 } // namespace
 
 std::string cellText(const CellValue &value)
@@ -46,6 +56,11 @@ std::string cellText(const CellValue &value)
                                  [](double number) { return formatNumber(number); },
                                  [](int number) { return std::to_string(number); }},
                       value);
+}
+
+Json cellJson(const CellValue &value)
+{
+    return std::visit([](const auto &held) { return Json(held); }, value);
 }
 
 std::vector<std::string> positionNames(const Grid &grid)
@@ -112,6 +127,22 @@ std::vector<TableColumn<Event>> eventColumns(const Grid &grid, OptionalColumns o
         add({"model_changes", &modelChangesText, std::string()});
     }
     return columns;
+}
+
+Json eventJson(const Event &e, const AnalysisPlan &plan)
+{
+    auto columns = eventColumns(plan.grid(), {.secondPass = true, .subtracted = true, .bank = plan.isBank()});
+    std::ranges::stable_sort(columns, {}, &TableColumn<Event>::keyRank);
+    Json json;
+    for (const TableColumn<Event> &column : columns)
+        if (const CellValue value = column.value(e); !column.isOptional || isKnown(value))
+            json[column.name] = cellJson(value);
+    if (json.contains("model_changes")) {
+        json["model_changes"] = Json::array();
+        for (const auto &[seconds, model] : e.modelChanges)
+            json["model_changes"].push_back({{"t", seconds}, {"model", nameOfBankModel(model)}});
+    }
+    return json;
 }
 
 std::vector<TableColumn<AreaEvent>> areaColumns()

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analyse/events.h"
+#include "base/json.h"
 
 #include <functional>
 #include <string>
@@ -14,6 +15,7 @@ using CellValue = std::variant<bool, int, double, std::string>;
 
 /// Shortest form that reads back the same, in the C locale; true is 1, false 0.
 std::string cellText(const CellValue &value);
+Json cellJson(const CellValue &value);
 
 /// A column of a table of events, points of tracks, or areas. CSV, JSON, surveys, Python and the window's table are made
 /// from the lists below.
@@ -43,6 +45,9 @@ struct OptionalColumns {
 };
 
 std::vector<TableColumn<Event>> eventColumns(const Grid &grid, OptionalColumns optional);
+/// An event with all columns that it has, as files and live runs tell it.
+Json eventJson(const Event &event, const AnalysisPlan &plan);
+
 std::vector<TableColumn<AreaEvent>> areaColumns();
 
 /// A point of a track, which plan and track outlive.

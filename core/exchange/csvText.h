@@ -3,6 +3,7 @@
 #include "analyse/columns.h"
 
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -10,6 +11,9 @@ namespace faintline {
 
 /// A text as one CSV field: quoted, quotes doubled.
 std::string csvText(const std::string &text);
+
+/// A text in XML or HTML, with entities for what has a meaning there.
+std::string xmlText(std::string_view text);
 
 /// What `textOf` makes of each column, separated by commas; the columns' names; the cells of a row.
 template <class Row, class TextOf>

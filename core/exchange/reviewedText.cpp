@@ -100,16 +100,32 @@ Json sigmfMetadata(const RecordingInfo &info, const std::string &description)
     return json;
 }
 
-void setSigmfTimes(Json &annotation, double startSeconds, double endSeconds, const RecordingInfo &info)
+Json &addAnnotation(Json &metadata, const Annotation &box, const RecordingInfo &info)
 {
     const auto numberAt = [&](double seconds) {
         const long long sample = sampleAt(seconds, info.sampleRateHz);
         const bool isInFile = info.places.end() == info.sampleCount; // and not of a derived recording
         return info.firstNumber + (isInFile ? info.places.storedAt(sample) : sample);
     };
-    const long long start = numberAt(startSeconds);
+    const long long start = numberAt(box.startSeconds);
+    Json &annotation = metadata["annotations"].emplace_back();
     annotation["core:sample_start"] = start;
-    annotation["core:sample_count"] = std::max(1LL, numberAt(endSeconds) - start);
+    annotation["core:sample_count"] = std::max(1LL, numberAt(box.endSeconds) - start);
+    if (box.lowHz && box.highHz) {
+        annotation["core:freq_lower_edge"] = info.centreHz + *box.lowHz;
+        annotation["core:freq_upper_edge"] = info.centreHz + *box.highHz;
+    }
+    annotation["core:label"] = box.label;
+    annotation["core:comment"] = box.note;
+    return annotation;
+}
+
+std::string sigmfText(Json metadata)
+{
+    Json &annotations = metadata["annotations"];
+    std::stable_sort(annotations.begin(), annotations.end(),
+                     [](const Json &a, const Json &b) { return a["core:sample_start"] < b["core:sample_start"]; });
+    return metadata.dump(2) + "\n";
 }
 
 void fillBox(const Analysis &analysis, const Event &event, Annotation &box)
@@ -169,25 +185,13 @@ std::string sigmfText(const std::vector<ReviewedRow> &rows, const RecordingInfo 
     if (!std::any_of(extensions.begin(), extensions.end(),
                      [](const Json &each) { return each.is_object() && each.value("name", Json()) == "faintline"; }))
         extensions.push_back({{"name", "faintline"}, {"version", "1.0.0"}, {"optional", true}});
-    const double centre = info.centreHz;
     for (const ReviewedRow &row : rows) {
-        Json one;
-        setSigmfTimes(one, row.box.startSeconds, row.box.endSeconds, info);
-        if (row.box.lowHz && row.box.highHz) {
-            one["core:freq_lower_edge"] = centre + *row.box.lowHz;
-            one["core:freq_upper_edge"] = centre + *row.box.highHz;
-        }
-        one["core:label"] = row.box.label;
-        one["core:comment"] = row.box.note;
+        Json &one = addAnnotation(json, row.box, info);
         one["faintline:review"] = nameOf(row.box.verdict);
         if (row.event)
             one["faintline:statistic"] = row.event->statistic;
-        json["annotations"].push_back(one);
     }
-    // SigMF requires annotations in order of time.
-    std::stable_sort(json["annotations"].begin(), json["annotations"].end(),
-                     [](const Json &a, const Json &b) { return a["core:sample_start"] < b["core:sample_start"]; });
-    return json.dump(2) + "\n";
+    return sigmfText(std::move(json));
 }
 
 } // namespace faintline

@@ -33,9 +33,12 @@ std::string audacityText(const std::vector<ReviewedRow> &rows);
 /// that holds them), "captures" (its own, or one of each stretch without a gap) and an empty list of "annotations".
 Json sigmfMetadata(const RecordingInfo &info, const std::string &description);
 
-/// Sets core:sample_start and core:sample_count of an annotation: SigMF counts the samples of the file, gaps left out,
-/// from core:offset on.
-void setSigmfTimes(Json &annotation, double startSeconds, double endSeconds, const RecordingInfo &info);
+/// Adds a box with its label, and its note as the comment; returns the new annotation. SigMF counts the samples of the
+/// file, gaps left out, from core:offset on.
+Json &addAnnotation(Json &metadata, const Annotation &box, const RecordingInfo &info);
+
+/// The text of metadata, with the annotations in order of their start, as SigMF requires.
+std::string sigmfText(Json metadata);
 
 /// SigMF annotations of a recording.
 std::string sigmfText(const std::vector<ReviewedRow> &rows, const RecordingInfo &info);

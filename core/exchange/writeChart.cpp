@@ -27,18 +27,6 @@ namespace {
     constexpr std::array<std::string_view, 7> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                       "#e69f00", "#56b4e9", "#000000"};
 
-    std::string escapedSvg(std::string_view text)
-    {
-        std::string result;
-        for (const char c : text)
-            result += c == '&'   ? "&amp;"
-                      : c == '<' ? "&lt;"
-                      : c == '>' ? "&gt;"
-                      : c == '"' ? "&quot;"
-                                 : std::string(1, c);
-        return result;
-    }
-
     /// Pixels rounded to a hundredth, which is invisible.
     std::string pixels(double value)
     {
@@ -127,7 +115,7 @@ namespace {
     std::string text(double x, double y, std::string_view anchor, std::string_view words, std::string_view more = "")
     {
         return "<text x=\"" + pixels(x) + "\" y=\"" + pixels(y) + "\" text-anchor=\"" + std::string(anchor) + "\""
-               + std::string(more) + ">" + escapedSvg(words) + "</text>\n";
+               + std::string(more) + ">" + xmlText(words) + "</text>\n";
     }
 
     std::string tickText(double value)

@@ -1,7 +1,6 @@
 #include "exchange/writeEvents.h"
 
 #include "analyse/columns.h"
-#include "base/Overloaded.h"
 #include "base/files/AtomicFile.h"
 #include "base/json.h"
 #include "exchange/csvText.h"
@@ -13,20 +12,6 @@
 namespace faintline {
 
 namespace {
-
-    Json cellJson(const CellValue &value)
-    {
-        return std::visit([](const auto &held) { return Json(held); }, value);
-    }
-
-    /// Whether it is not what isOptional of a column leaves out.
-    bool isKnown(const CellValue &value)
-    {
-        return std::visit(Overloaded{[](const std::string &text) { return !text.empty(); },
-                                     [](double number) { return !std::isnan(number); },
-                                     [](auto number) { return number != 0; }},
-                          value);
-    }
 
     /// Rounded as displayed, with its unit.
     std::string shownStatistic(const Event &e, const Analysis &analysis)
@@ -48,48 +33,6 @@ namespace {
     std::string roundedDb(double db)
     {
         return formatNumber(std::round(10.0 * db) / 10.0);
-    }
-
-    std::string sigmfAnnotations(const Analysis &analysis)
-    {
-        if (!analysis.recording)
-            throw Error("events as SigMF", "require a recording; write .csv or .json for ready-made frames");
-        const RecordingInfo &info = analysis.recording->info();
-        const double centre = info.centreHz;
-        Json json = sigmfMetadata(
-            info, std::string("Events found by Faintline's ")
-                      + (isScoreOfPaths(analysis.settings.detector)
-                             ? "sequential Markov detector"
-                             : "detector " + std::string(detectorNames[analysis.settings.detector.index()])));
-        for (const Event &e : events(analysis)) {
-            Annotation box; // as with reviews, which so take the place of these
-            fillBox(analysis, e, box);
-            Json annotation;
-            setSigmfTimes(annotation, box.startSeconds, box.endSeconds, info);
-            annotation["core:freq_lower_edge"] = centre + box.lowHz.value_or(0.0);
-            annotation["core:freq_upper_edge"] = centre + box.highHz.value_or(0.0);
-            annotation["core:label"] = "event " + std::to_string(e.id);
-            std::string comment =
-                "statistic " + formatNumber(e.statistic) + " " + std::string(statisticUnit(analysis.settings.detector));
-            if (!std::isnan(e.snrDb))
-                comment += ", SNR " + roundedDb(e.snrDb) + " dB in one window";
-            annotation["core:comment"] = comment;
-            json["annotations"].push_back(annotation);
-        }
-        for (const AreaEvent &area : areaEvents(analysis)) {
-            Json annotation;
-            setSigmfTimes(annotation, area.onsetSeconds, area.endSeconds, info);
-            annotation["core:freq_lower_edge"] = centre + area.low;
-            annotation["core:freq_upper_edge"] = centre + area.high;
-            annotation["core:label"] = "area";
-            annotation["core:comment"] = "not a line: level raised by at least " + roundedDb(area.levelDb) + " dB";
-            json["annotations"].push_back(annotation);
-        }
-        // The specification requires them in order of their start.
-        std::stable_sort(json["annotations"].begin(), json["annotations"].end(), [](const Json &a, const Json &b) {
-            return a["core:sample_start"].get<long long>() < b["core:sample_start"].get<long long>();
-        });
-        return json.dump(2) + "\n";
     }
 
     void writeTracksCsv(AtomicFile &file, const Analysis &analysis, const std::vector<Track> &tracks)
@@ -167,22 +110,6 @@ std::string eventsCsv(const AnalysisPlan &plan, const std::vector<Event> &events
     return text;
 }
 
-Json eventJson(const Event &e, const AnalysisPlan &plan)
-{
-    auto columns = eventColumns(plan.grid(), {.secondPass = true, .subtracted = true, .bank = plan.isBank()});
-    std::ranges::stable_sort(columns, {}, &TableColumn<Event>::keyRank);
-    Json json;
-    for (const TableColumn<Event> &column : columns)
-        if (const CellValue value = column.value(e); !column.isOptional || isKnown(value))
-            json[column.name] = cellJson(value);
-    if (json.contains("model_changes")) {
-        json["model_changes"] = Json::array();
-        for (const auto &[seconds, model] : e.modelChanges)
-            json["model_changes"].push_back({{"t", seconds}, {"model", nameOfBankModel(model)}});
-    }
-    return json;
-}
-
 std::string eventsJson(const AnalysisPlan &plan, const std::vector<Event> &events, const std::vector<AreaEvent> &areas)
 {
     Json json;
@@ -206,7 +133,30 @@ std::string eventsJson(const AnalysisPlan &plan, const std::vector<Event> &event
 
 std::string eventsSigmf(const Analysis &analysis)
 {
-    return sigmfAnnotations(analysis);
+    if (!analysis.recording)
+        throw Error("events as SigMF", "require a recording; write .csv or .json for ready-made frames");
+    const RecordingInfo &info = analysis.recording->info();
+    Json json =
+        sigmfMetadata(info, std::string("Events found by Faintline's ")
+                                + (isScoreOfPaths(analysis.settings.detector)
+                                       ? "sequential Markov detector"
+                                       : "detector " + std::string(detectorNames[analysis.settings.detector.index()])));
+    for (const Event &e : events(analysis)) {
+        Annotation box; // as with reviews, which so take the place of these
+        fillBox(analysis, e, box);
+        box.label = "event " + std::to_string(e.id);
+        box.note =
+            "statistic " + formatNumber(e.statistic) + " " + std::string(statisticUnit(analysis.settings.detector));
+        if (!std::isnan(e.snrDb))
+            box.note += ", SNR " + roundedDb(e.snrDb) + " dB in one window";
+        addAnnotation(json, box, info);
+    }
+    for (const AreaEvent &area : areaEvents(analysis))
+        addAnnotation(json,
+                      {area.onsetSeconds, area.endSeconds, area.low, area.high, "area",
+                       "not a line: level raised by at least " + roundedDb(area.levelDb) + " dB"},
+                      info);
+    return sigmfText(std::move(json));
 }
 
 void writeEvents(const Analysis &analysis, const std::string &path)
@@ -219,7 +169,7 @@ void writeEvents(const Analysis &analysis, const std::string &path)
     else if (path.ends_with(".txt"))
         writeTextFile(path, audacityLabels(analysis));
     else
-        writeTextFile(path, sigmfAnnotations(analysis));
+        writeTextFile(path, eventsSigmf(analysis));
 }
 
 void writeTracks(const Analysis &analysis, const std::string &path)

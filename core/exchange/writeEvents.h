@@ -1,7 +1,6 @@
 #pragma once
 
-#include "analyse/events.h"
-#include "base/json.h"
+#include "analyse/columns.h"
 #include "plan/Analysis.h"
 
 #include <string>
@@ -29,8 +28,6 @@ std::string eventsJson(const AnalysisPlan &plan, const std::vector<Event> &event
                        const std::vector<AreaEvent> &areas = {});
 /// The text of such a .sigmf-meta file. Throws Error for frames.
 std::string eventsSigmf(const Analysis &analysis);
-/// One event as an element of that JSON.
-Json eventJson(const Event &event, const AnalysisPlan &plan);
 
 /// Throws Error if `writeEvents` or `writeTracks` does not know the extension of a name; call it before a long run.
 void checkEventsPath(const std::string &path);

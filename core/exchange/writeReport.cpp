@@ -2,6 +2,7 @@
 
 #include "base/numberText.h"
 #include "base/utc.h"
+#include "exchange/csvText.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,29 +13,6 @@ namespace {
 
     constexpr std::size_t mostLadders = 10;
     constexpr std::size_t mostRungs = 60;
-
-    std::string escapedHtml(const std::string &text)
-    {
-        std::string result;
-        for (const char c : text)
-            switch (c) {
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '&':
-                result += "&amp;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += c;
-            }
-        return result;
-    }
 
     std::string base64(const std::string &bytes)
     {
@@ -98,7 +76,7 @@ namespace {
     {
         std::string row = "<tr>";
         for (const std::string &text : texts)
-            row += std::string("<") + tag + ">" + escapedHtml(text) + "</" + tag + ">";
+            row += std::string("<") + tag + ">" + xmlText(text) + "</" + tag + ">";
         return row + "</tr>\n";
     }
 
@@ -107,8 +85,7 @@ namespace {
     {
         std::string row = "<tr>";
         for (std::size_t i = 0; i < texts.size(); ++i)
-            row +=
-                std::string("<") + tag + (i < count ? " class=\"n\">" : ">") + escapedHtml(texts[i]) + "</" + tag + ">";
+            row += std::string("<") + tag + (i < count ? " class=\"n\">" : ">") + xmlText(texts[i]) + "</" + tag + ">";
         return row + "</tr>\n";
     }
 
@@ -141,7 +118,7 @@ namespace {
 
     std::string fact(const std::string &name, const std::string &value)
     {
-        return "<tr><th scope=\"row\">" + escapedHtml(name) + "</th><td>" + escapedHtml(value) + "</td></tr>\n";
+        return "<tr><th scope=\"row\">" + xmlText(name) + "</th><td>" + xmlText(value) + "</td></tr>\n";
     }
 
     std::string recordingFacts(const Analysis &analysis)
@@ -365,15 +342,14 @@ std::string reportHtml(const Analysis &analysis, const ReportMaterial &material)
     std::string text = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
                        "content=\"width=device-width\">\n"
                        "<meta name=\"generator\" content=\"Faintline "
-                       + escapedHtml(material.version) + "\">\n<title>" + escapedHtml(material.title)
-                       + "</title>\n<style>" + style + "</style>\n</head>\n<body>\n<h1>" + escapedHtml(material.title)
-                       + "</h1>\n";
+                       + xmlText(material.version) + "\">\n<title>" + xmlText(material.title) + "</title>\n<style>"
+                       + style + "</style>\n</head>\n<body>\n<h1>" + xmlText(material.title) + "</h1>\n";
     text += "<h2>Recording</h2>\n" + recordingFacts(analysis);
     text += "<h2>Pictures</h2>\n<div class=\"pictures\">\n";
     for (const ReportMaterial::Picture &picture : material.pictures)
-        text += "<figure><img alt=\"" + escapedHtml(picture.title) + "\" width=\"" + std::to_string(picture.width)
+        text += "<figure><img alt=\"" + xmlText(picture.title) + "\" width=\"" + std::to_string(picture.width)
                 + "\" height=\"" + std::to_string(picture.height) + "\" src=\"data:image/png;base64,"
-                + base64(picture.png) + "\"><figcaption>" + escapedHtml(picture.title) + "</figcaption></figure>\n";
+                + base64(picture.png) + "\"><figcaption>" + xmlText(picture.title) + "</figcaption></figure>\n";
     text += "</div>\n<h2>Events</h2>\n" + eventsTable(analysis, material) + areasTable(analysis)
             + annotationsTable(material.annotations.boxes);
     text += "<h2>Threshold and calibration</h2>\n" + calibrationFacts(analysis);
@@ -384,11 +360,11 @@ std::string reportHtml(const Analysis &analysis, const ReportMaterial &material)
             text += ladder(analysis, one);
     }
     text += "<h2>Settings that differ from the defaults</h2>\n" + settingsTable(analysis.settings);
-    text += "<h2>Provenance</h2>\n<p>Faintline " + escapedHtml(material.version)
+    text += "<h2>Provenance</h2>\n<p>Faintline " + xmlText(material.version)
             + ". The same recording with these "
               "settings gives the same "
               "results.</p>\n<pre>"
-            + escapedHtml(material.provenance) + "</pre>\n";
+            + xmlText(material.provenance) + "</pre>\n";
     return text + "</body>\n</html>\n";
 }
 

@@ -1,8 +1,7 @@
 #include "live/listen.h"
 
-#include "base/json.h"
+#include "analyse/columns.h"
 #include "base/utc.h"
-#include "exchange/writeEvents.h"
 
 #include <array>
 #include <string_view>

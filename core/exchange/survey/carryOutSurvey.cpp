@@ -10,7 +10,6 @@
 #include "exchange/survey/SurveyOutcome.h"
 #include "exchange/survey/surveySchema.h"
 #include "exchange/survey/writeSurvey.h"
-#include "noise/openFrames.h"
 #include "plan/firstSettings.h"
 #include "signal/fileHash.h"
 #include "signal/formats/SigmfRecording.h"
