@@ -82,7 +82,7 @@ namespace {
     {
         if (experiment.isSweep() && options.roc.ends_with(".csv"))
             throw Error(options.roc, "must end in .svg for a sweep, whose false alarms are columns of --out");
-        const std::vector<double> snrs = experiment.snrDb;
+        const std::vector<double> &snrs = experiment.snrDb;
         if (!options.rocSnrDb)
             return snrs.size() / 2;
         const auto found = std::ranges::find(snrs, *options.rocSnrDb);

@@ -87,10 +87,13 @@ namespace {
         return words;
     }
 
-    /// What all detectors have in common, then the name of each with its own settings.
+    /// What all detectors, or values of a sweep, have in common, then the name of each with its own settings.
     QStringList detectorsIn(const Experiment &experiment)
     {
-        const std::vector<DetectorUnderTest> detectors = detectorsOf(experiment);
+        std::vector<DetectorUnderTest> detectors = experiment.detectors;
+        for (std::size_t i = 0; i < experiment.values.size(); ++i)
+            detectors.push_back({experiment.parameter + " = " + formatNumber(experiment.values[i]),
+                                 experimentAt(experiment, i).settings});
         std::vector<StatedSettings> each;
         for (const DetectorUnderTest &one : detectors)
             each.push_back(settingsIn(one.settings, CaptionOf::Statistic));

@@ -79,7 +79,7 @@ void TrialViewer::show(const ShownTrial &trial)
     const Campaign &campaign = *entry->campaign;
     const auto all = trialsOf(campaign, {m_detector, m_snr});
     const TrialOutcome &outcome = all[std::size_t(m_trial)];
-    const DetectorUnderTest detector = detectorsOf(campaign.experiment)[m_detector];
+    const DetectorUnderTest &detector = campaign.experiment.detectors[m_detector];
     const QString name = labelText(detector.name);
     const QString db = numberText(snrOf(campaign, m_snr), 1);
     const QString unit = statisticUnit(detector.settings);

@@ -152,7 +152,7 @@ namespace {
     void checkShape(const Campaign &campaign, const RunOutcome &outcome, const std::string &where)
     {
         const bool isSweep = campaign.experiment.isSweep();
-        const std::size_t detectors = isSweep ? 1 : detectorsOf(campaign.experiment).size();
+        const std::size_t detectors = isSweep ? 1 : campaign.experiment.detectors.size();
         const std::size_t snrs = campaign.experiment.snrDb.size();
         bool isWhole = outcome.noise.size() == detectors && outcome.signal.size() == detectors;
         for (const auto &noise : outcome.noise)
@@ -305,7 +305,7 @@ void writeRoc(const Campaign &campaign, std::size_t snr, const std::string &path
     std::string csv = "detector,snr_db,threshold,";
     csv += isInBlocks ? "false_alarms_per_block" : "false_alarm_probability";
     csv += ",pd,pd_low,pd_high\n";
-    const std::vector<DetectorUnderTest> detectors = detectorsOf(campaign.experiment);
+    const std::vector<DetectorUnderTest> &detectors = campaign.experiment.detectors;
     const std::string snrDb = formatNumber(campaign.experiment.snrDb.at(snr));
     for (std::size_t d = 0; d < detectors.size(); ++d)
         for (const RocPoint &point : rocPoints(campaign, d, snr)) {

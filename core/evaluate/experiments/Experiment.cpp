@@ -359,21 +359,26 @@ Experiment experimentAt(const Experiment &sweep, std::size_t value)
     return result;
 }
 
-std::vector<DetectorUnderTest> detectorsOf(const Experiment &experiment)
-{
-    std::vector<DetectorUnderTest> detectors = experiment.detectors;
-    for (std::size_t i = 0; i < experiment.values.size(); ++i)
-        detectors.push_back(
-            {experiment.parameter + " = " + formatNumber(experiment.values[i]), experimentAt(experiment, i).settings});
-    return detectors;
-}
-
 AnalysisSettings settingsOf(const Experiment &injection, std::size_t detector)
 {
     AnalysisSettings settings = injection.settings;
     settings.model = injection.detectors[detector].settings.model;
     settings.detector = injection.detectors[detector].settings.detector;
     return settings;
+}
+
+LineSettings lineOf(const Experiment &experiment, double snrDb, double referenceSeconds)
+{
+    return {.snrDb = snrDb,
+            .referenceSeconds = referenceSeconds,
+            .durationSeconds = experiment.durationSeconds,
+            .frequencyHz = 0.0,
+            .driftHzPerSecond = experiment.driftHzPerSecond,
+            .wanderHz = experiment.wanderHz,
+            .wanderSeconds = experiment.wanderSeconds,
+            .fading = experiment.fading,
+            .fadingSeconds = experiment.fadingSeconds,
+            .fluctuation = experiment.fluctuation};
 }
 
 void checkExperiment(const Experiment &experiment, const std::string &where)

@@ -117,11 +117,11 @@ const FieldInfo &parameterInfo(const std::string &parameter);
 /// A sweep with one of its values, in its settings or its line. Throws Error if they are invalid.
 Experiment experimentAt(const Experiment &sweep, std::size_t value);
 
-/// The detectors of an experiment; of a sweep one for each value.
-std::vector<DetectorUnderTest> detectorsOf(const Experiment &experiment);
-
 /// Settings of one detector of an injection: its model and detector settings with all shared ones.
 AnalysisSettings settingsOf(const Experiment &injection, std::size_t detector);
+
+/// A line of the experiment that begins at 0 s and 0 Hz; its SNR, in a window of `referenceSeconds`.
+LineSettings lineOf(const Experiment &experiment, double snrDb, double referenceSeconds);
 
 /// Throws Error naming the key.
 void checkExperiment(const Experiment &experiment, const std::string &where = {});

@@ -211,11 +211,8 @@ MadeTrial InjectionTrials::remake(int trial, double snrDb) const
     if (!(low < high))
         throw Error("driftHzPerSecond, wanderHz", "a line must stay within the selected band of "
                                                       + formatNumber(frequency.last() - frequency.first) + " Hz");
-    InjectedLine injected;
+    InjectedLine injected{lineOf(m_experiment, snrDb, window)};
     LineSettings &line = injected.line;
-    line.snrDb = snrDb;
-    line.referenceSeconds = window;
-    line.durationSeconds = m_experiment.durationSeconds;
     double offsetHz = 0.0;
     const auto isFree = [&] {
         const auto aside =
@@ -238,9 +235,6 @@ MadeTrial InjectionTrials::remake(int trial, double snrDb) const
         throw fieldError("durationSeconds", formatNumber(m_experiment.durationSeconds),
                          "must be shorter: no part of the selection is free of signals for that long");
     line.frequencyHz = info.centreHz + offsetHz;
-    line.driftHzPerSecond = m_experiment.driftHzPerSecond;
-    line.wanderHz = m_experiment.wanderHz;
-    line.wanderSeconds = m_experiment.wanderSeconds;
     const double middle = line.startSeconds + 0.5 * line.durationSeconds;
     const double noisePower = std::exp(m_shared->background->lnPowerAt(middle, offsetHz + 0.5 * travel));
     injected.amplitude = toneAmplitude(snrDb, noisePower, double(spectrogram.windowSamples()), info.isComplex);

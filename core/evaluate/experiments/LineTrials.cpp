@@ -120,9 +120,9 @@ namespace {
 
         Index blockedFrames() const { return Index(m_experiment.blocksInTime()) * m_experiment.blockFrames; }
 
-        /// Runs all detectors over the field's frames and calls look(detector, frame, statistic) for each.
-        template <class Look>
-        void detect(float amplitude, Index frames, Look look) const
+        /// Runs all detectors over the field's frames and calls visit(detector, frame, statistic) for each.
+        template <class Visit>
+        void detect(float amplitude, Index frames, Visit visit) const
         {
             const auto detectors = detectorsAtWork();
             std::vector<float> y(std::size_t(m_experiment.bins()));
@@ -131,7 +131,7 @@ namespace {
                 powerOf(m_field, m_experiment.bins(), frame, amplitude, y);
                 for (std::size_t d = 0; d < detectors.size(); ++d) {
                     detectors[d]->update(y, statistic);
-                    look(d, frame, statistic);
+                    visit(d, frame, statistic);
                 }
             }
         }
@@ -224,6 +224,61 @@ namespace {
         std::vector<Index> m_waits; ///< frames until each detector's next decision
     };
 
+    using Complex = std::complex<float>;
+
+    /// Random streams of one run: its noise and the positions of its signals; wander and phase of a signal come from
+    /// Tone.
+    constexpr std::uint64_t streamsPerRun = 2;
+
+    RecordingInfo recordingInfo(const Experiment &experiment)
+    {
+        // One window lasts one second, so that Hz are resolution cells.
+        RecordingInfo info;
+        info.sampleRateHz = Experiment::windowSamples;
+        info.isComplex = true;
+        info.centreHz = 0.5 * Experiment::windowSamples; // frequencies 0 … 250 cells
+        info.sampleCount = Index(Experiment::windowSamples) * (experiment.frames + experiment.stepsPerWindow - 1)
+                           / experiment.stepsPerWindow;
+        return info;
+    }
+
+    /// The bin where a signal is strongest, near its nominal frequency.
+    Index strongestBin(const Experiment &experiment, const std::vector<Complex> &signal, Index frame, double cells,
+                       Index lowest)
+    {
+        const auto expected = Index(std::lround(cells * experiment.binsPerCell));
+        const Index reach = 2 * experiment.binsPerCell;
+        const Index from = std::clamp<Index>(expected - reach, lowest, lowest + experiment.blockBins - 1);
+        const Index to = std::clamp<Index>(expected + reach, lowest, lowest + experiment.blockBins - 1);
+        const Complex *row = signal.data() + frame * experiment.bins();
+        Index best = from;
+        for (Index bin = from + 1; bin <= to; ++bin)
+            if (std::norm(row[bin]) > std::norm(row[best]))
+                best = bin;
+        return best;
+    }
+
+    /// Mean frequency, in cells, over a frame's window.
+    double meanFrequency(const TruthLine &truth, double windowStart)
+    {
+        constexpr int points = 8;
+        double sum = 0.0;
+        for (int i = 0; i < points; ++i)
+            sum += truth.frequencyAt(windowStart + (i + 0.5) / points);
+        return sum / points;
+    }
+
+    /// y = |noise + amplitude·signal|² of interleaved complex values.
+    FAINTLINE_MULTIVERSION
+    void power(const float *noise, const float *signal, float amplitude, Index n, float *y)
+    {
+        for (Index i = 0; i < n; ++i) {
+            const float re = noise[2 * i] + amplitude * signal[2 * i];
+            const float im = noise[2 * i + 1] + amplitude * signal[2 * i + 1];
+            y[i] = re * re + im * im;
+        }
+    }
+
 } // namespace
 
 AnalysisSettings wholeSettings(const Experiment &experiment, std::size_t detector)
@@ -289,65 +344,6 @@ MadeTrial remakeField(const Experiment &experiment, double snrDb, int run, int s
     return {recordingOf(experiment, field, float(std::sqrt(ratioFromDb(snrDb)))), field.truths[std::size_t(signal)]};
 }
 
-namespace {
-
-    using Complex = std::complex<float>;
-
-    /// Random streams of one run: its noise and the positions of its signals; wander and phase of a signal come from
-    /// Tone.
-    constexpr std::uint64_t streamsPerRun = 2;
-
-    RecordingInfo recordingInfo(const Experiment &experiment)
-    {
-        // One window lasts one second, so that Hz are resolution cells.
-        RecordingInfo info;
-        info.sampleRateHz = Experiment::windowSamples;
-        info.isComplex = true;
-        info.centreHz = 0.5 * Experiment::windowSamples; // frequencies 0 … 250 cells
-        info.sampleCount = Index(Experiment::windowSamples) * (experiment.frames + experiment.stepsPerWindow - 1)
-                           / experiment.stepsPerWindow;
-        return info;
-    }
-
-    /// The bin where a signal is strongest, near its nominal frequency.
-    Index strongestBin(const Experiment &experiment, const std::vector<Complex> &signal, Index frame, double cells,
-                       Index lowest)
-    {
-        const auto expected = Index(std::lround(cells * experiment.binsPerCell));
-        const Index reach = 2 * experiment.binsPerCell;
-        const Index from = std::clamp<Index>(expected - reach, lowest, lowest + experiment.blockBins - 1);
-        const Index to = std::clamp<Index>(expected + reach, lowest, lowest + experiment.blockBins - 1);
-        const Complex *row = signal.data() + frame * experiment.bins();
-        Index best = from;
-        for (Index bin = from + 1; bin <= to; ++bin)
-            if (std::norm(row[bin]) > std::norm(row[best]))
-                best = bin;
-        return best;
-    }
-
-    /// Mean frequency, in cells, over a frame's window.
-    double meanFrequency(const TruthLine &truth, double windowStart)
-    {
-        constexpr int points = 8;
-        double sum = 0.0;
-        for (int i = 0; i < points; ++i)
-            sum += truth.frequencyAt(windowStart + (i + 0.5) / points);
-        return sum / points;
-    }
-
-    /// y = |noise + amplitude·signal|² of interleaved complex values.
-    FAINTLINE_MULTIVERSION
-    void power(const float *noise, const float *signal, float amplitude, Index n, float *y)
-    {
-        for (Index i = 0; i < n; ++i) {
-            const float re = noise[2 * i] + amplitude * signal[2 * i];
-            const float im = noise[2 * i + 1] + amplitude * signal[2 * i + 1];
-            y[i] = re * re + im * im;
-        }
-    }
-
-} // namespace
-
 std::vector<Complex> fieldTransform(const Experiment &experiment, std::span<const float> samples)
 {
     const Index bins = experiment.bins();
@@ -400,18 +396,9 @@ NoisyField makeField(const Experiment &experiment, int run)
         const double margin = 1.0;
         const double lowest = blockInFrequency * blockCells + margin + std::max(0.0, -travel);
         const double highest = (blockInFrequency + 1) * blockCells - margin - std::max(0.0, travel);
-        LineSettings line;
-        line.snrDb = 0.0;
-        line.referenceSeconds = 1.0;
+        LineSettings line = lineOf(experiment, 0.0, 1.0);
         line.startSeconds = double(place.firstFrame) / experiment.stepsPerWindow;
-        line.durationSeconds = experiment.durationSeconds;
         line.frequencyHz = lowest + places.uniform() * (highest - lowest);
-        line.driftHzPerSecond = experiment.driftHzPerSecond;
-        line.wanderHz = experiment.wanderHz;
-        line.wanderSeconds = experiment.wanderSeconds;
-        line.fading = experiment.fading;
-        line.fadingSeconds = experiment.fadingSeconds;
-        line.fluctuation = experiment.fluctuation;
         const Tone tone(line, amplitude, info, seed, Index(run) * experiment.signalsPerRun() + i);
         tone.addTo(0, field.signalSamples);
         field.truths.push_back(tone.truth());

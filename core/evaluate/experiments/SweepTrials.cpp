@@ -103,15 +103,9 @@ LineSettings SweepTrials::lineAt(const Experiment &one, const Placement &placeme
     if (!(low < high))
         throw Error("driftHzPerSecond, wanderHz",
                     "a line must stay within the band of " + formatNumber(highest - lowest) + " Hz");
-    LineSettings line;
-    line.snrDb = one.snrDb.front();
-    line.referenceSeconds = m_referenceSeconds;
+    LineSettings line = lineOf(one, one.snrDb.front(), m_referenceSeconds);
     line.startSeconds = one.marginSeconds;
-    line.durationSeconds = one.durationSeconds;
     line.frequencyHz = info.centreHz + low + placement.inBand * (high - low);
-    line.driftHzPerSecond = one.driftHzPerSecond;
-    line.wanderHz = one.wanderHz;
-    line.wanderSeconds = one.wanderSeconds;
     return line;
 }
 

@@ -70,7 +70,7 @@ namespace {
     /// Measured curves of all detectors. The lowest and the highest threshold cannot be drawn on a logarithmic axis.
     void addMeasured(Chart &chart, const Campaign &campaign, std::size_t snr)
     {
-        const std::vector<DetectorUnderTest> detectors = detectorsOf(campaign.experiment);
+        const std::vector<DetectorUnderTest> &detectors = campaign.experiment.detectors;
         for (std::size_t d = 0; d < detectors.size(); ++d) {
             Curve curve{detectors[d].name, Curve::Kind::Measured, {}};
             for (const RocPoint &point : rocPoints(campaign, d, snr))
@@ -101,7 +101,7 @@ namespace {
     {
         if (campaign.outcomes.empty() || campaign.experiment.isSweep())
             return {};
-        const std::vector<DetectorUnderTest> detectors = detectorsOf(campaign.experiment);
+        const std::vector<DetectorUnderTest> &detectors = campaign.experiment.detectors;
         for (std::size_t d = 0; d < detectors.size(); ++d)
             if (!detectors[d].isWhole && detectors[d].settings.model == current.model
                 && detectors[d].settings.detector == current.detector)
@@ -111,7 +111,7 @@ namespace {
 
     std::string nameAt(const Campaign &campaign, std::size_t detector, double threshold)
     {
-        return detectorsOf(campaign.experiment)[detector].name
+        return campaign.experiment.detectors[detector].name
                + ", T = " + formatNumber(std::round(100.0 * threshold) / 100.0);
     }
 
@@ -156,7 +156,7 @@ std::optional<Curve> pdAtOperatingPoint(const Campaign &campaign, const Analysis
     if (!detector)
         return {};
     Curve curve{nameAt(campaign, *detector, threshold), Curve::Kind::Theory, {}};
-    const std::vector<double> snrs = campaign.experiment.snrDb;
+    const std::vector<double> &snrs = campaign.experiment.snrDb;
     for (std::size_t s = 0; s < snrs.size(); ++s)
         curve.points.push_back({snrs[s], pdAbove(campaign, *detector, s, threshold).pd, {}});
     return curve;

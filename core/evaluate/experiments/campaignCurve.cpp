@@ -113,7 +113,7 @@ double blockThreshold(std::span<const RunOutcome> outcomes, std::size_t detector
 
 double shownThreshold(const Campaign &campaign, std::size_t detector)
 {
-    if (detectorsOf(campaign.experiment)[detector].isWhole)
+    if (campaign.experiment.detectors[detector].isWhole)
         return 0.0; // of a margin
     const double share = 1.0 - std::exp(-1.0);
     return campaign.thresholds.empty() ? blockThreshold(campaign.outcomes, detector, share)

@@ -78,7 +78,7 @@ namespace {
 std::vector<TrialOutcome> trialsOf(const Campaign &campaign, const CampaignPoint &point)
 {
     std::vector<TrialOutcome> result;
-    if (campaign.outcomes.empty())
+    if (campaign.outcomes.empty() || campaign.experiment.isSweep())
         return result;
     const double threshold = shownThreshold(campaign, point.detector);
     for (const RunOutcome &outcome : campaign.outcomes) {

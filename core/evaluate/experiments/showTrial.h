@@ -31,6 +31,7 @@ struct TrialOutcome {
     double statistic = 0.0;
     bool isDetected = false;
 };
+/// Nothing for a sweep.
 std::vector<TrialOutcome> trialsOf(const Campaign &campaign, const CampaignPoint &point);
 
 /// A regenerated trial after the whole chain, for display.
