@@ -19,27 +19,53 @@ namespace faintline::cli {
 
 namespace {
 
+    /// What is known of all files, at the beginning of what is printed …
+    template <class Info>
+    Json headJson(const Info &info)
+    {
+        return {{"path", textFromFileName(info.path)}, {"container", info.container}, {"sampleType", info.sampleType}};
+    }
+
+    template <class Info>
+    void printHead(const Info &info)
+    {
+        std::printf("file          %s\n", oneLine(info.path).c_str());
+        std::printf("container     %s, %s\n", oneLine(info.container).c_str(), oneLine(info.sampleType).c_str());
+    }
+
+    /// … and, of samples and power, at its end.
+    template <class Info>
+    void addEnd(Json &json, const Info &info)
+    {
+        json["startUnixSeconds"] = info.startUnixSeconds ? Json(*info.startUnixSeconds) : Json(nullptr);
+        json["notes"] = info.notes;
+    }
+
+    template <class Info>
+    void printEnd(const Info &info)
+    {
+        if (info.startUnixSeconds)
+            std::printf("start         %s s after 1970-01-01 UTC\n", formatPlainly(*info.startUnixSeconds).c_str());
+        for (const std::string &note : info.notes)
+            std::printf("note          %s\n", oneLine(note).c_str());
+    }
+
     Json toJson(const RecordingInfo &info)
     {
-        Json json;
-        json["path"] = textFromFileName(info.path);
-        json["container"] = info.container;
-        json["sampleType"] = info.sampleType;
+        Json json = headJson(info);
         json["sampleRateHz"] = info.sampleRateHz;
         json["channels"] = info.channelCount;
         json["samples"] = info.sampleCount;
         json["durationSeconds"] = info.durationSeconds();
         json["complex"] = info.isComplex;
         json["centreHz"] = info.isCentreKnown() ? Json(info.centreHz) : Json(nullptr);
-        json["startUnixSeconds"] = info.startUnixSeconds ? Json(*info.startUnixSeconds) : Json(nullptr);
-        json["notes"] = info.notes;
+        addEnd(json, info);
         return json;
     }
 
     void print(const RecordingInfo &info)
     {
-        std::printf("file          %s\n", oneLine(info.path).c_str());
-        std::printf("container     %s, %s\n", oneLine(info.container).c_str(), oneLine(info.sampleType).c_str());
+        printHead(info);
         std::printf("sample rate   %s Hz\n", formatPlainly(info.sampleRateHz).c_str());
         std::printf("channels      %d%s\n", info.channelCount, info.isComplex ? ", I/Q" : "");
         std::printf("length        %td samples, %s s\n", info.sampleCount,
@@ -47,10 +73,7 @@ namespace {
         if (info.isComplex)
             std::printf("centre        %s\n",
                         info.isCentreKnown() ? (formatPlainly(info.centreHz) + " Hz").c_str() : "unknown");
-        if (info.startUnixSeconds)
-            std::printf("start         %s s after 1970-01-01 UTC\n", formatPlainly(*info.startUnixSeconds).c_str());
-        for (const std::string &note : info.notes)
-            std::printf("note          %s\n", oneLine(note).c_str());
+        printEnd(info);
     }
 
     Json toJson(const Axis &axis)
@@ -60,22 +83,17 @@ namespace {
 
     Json toJson(const PowerInfo &info)
     {
-        Json json;
-        json["path"] = textFromFileName(info.path);
-        json["container"] = info.container;
-        json["sampleType"] = info.sampleType;
+        Json json = headJson(info);
         json["time"] = toJson(info.time);
         json["frequency"] = toJson(info.frequency);
         json["channels"] = info.channelCount;
-        json["startUnixSeconds"] = info.startUnixSeconds ? Json(*info.startUnixSeconds) : Json(nullptr);
-        json["notes"] = info.notes;
+        addEnd(json, info);
         return json;
     }
 
     void print(const PowerInfo &info)
     {
-        std::printf("file          %s\n", oneLine(info.path).c_str());
-        std::printf("container     %s, %s\n", oneLine(info.container).c_str(), oneLine(info.sampleType).c_str());
+        printHead(info);
         std::printf("frames        %td, one every %s s\n", info.time.count, formatPlainly(info.time.step).c_str());
         std::printf("frequencies   %td channels of %s Hz, %s … %s Hz\n", info.frequency.count,
                     formatPlainly(info.frequency.step).c_str(),
@@ -83,28 +101,7 @@ namespace {
                     positionText(info.frequency.last(), info.frequency).c_str());
         if (info.channelCount > 1)
             std::printf("polarisations %d\n", info.channelCount);
-        if (info.startUnixSeconds)
-            std::printf("start         %s s after 1970-01-01 UTC\n", formatPlainly(*info.startUnixSeconds).c_str());
-        for (const std::string &note : info.notes)
-            std::printf("note          %s\n", oneLine(note).c_str());
-    }
-
-    Json toJson(const PingsInfo &info)
-    {
-        Json json;
-        json["path"] = textFromFileName(info.path);
-        json["container"] = info.container;
-        json["sampleType"] = info.sampleType;
-        json["time"] = toJson(info.time);
-        json["axes"] = Json::array();
-        for (const Axis &axis : info.grid.axes) {
-            Json one = toJson(axis);
-            one["name"] = axis.name;
-            one["cyclic"] = axis.cyclic;
-            json["axes"].push_back(one);
-        }
-        json["complex"] = info.isComplex;
-        return json;
+        printEnd(info);
     }
 
     /// What the numbers of pings are: as the file says, or guessed.
@@ -118,11 +115,27 @@ namespace {
                + (isStated ? "" : " (guessed; the grid file or pings.values can say)");
     }
 
+    Json toJson(const RawPings &pings)
+    {
+        const PingsInfo &info = pings.info();
+        Json json = headJson(info);
+        json["time"] = toJson(info.time);
+        json["axes"] = Json::array();
+        for (const Axis &axis : info.grid.axes) {
+            Json one = toJson(axis);
+            one["name"] = axis.name;
+            one["cyclic"] = axis.cyclic;
+            json["axes"].push_back(one);
+        }
+        json["complex"] = info.isComplex;
+        json["values"] = valuesOf(pings);
+        return json;
+    }
+
     void print(const RawPings &pings)
     {
         const PingsInfo &info = pings.info();
-        std::printf("file          %s\n", oneLine(info.path).c_str());
-        std::printf("container     %s, %s\n", oneLine(info.container).c_str(), oneLine(info.sampleType).c_str());
+        printHead(info);
         std::printf("pings         %td, one every %s s\n", info.time.count, formatPlainly(info.time.step).c_str());
         for (const Axis &axis : info.grid.axes) {
             const std::string unit = axis.unit.empty() ? std::string() : " " + oneLine(axis.unit);
@@ -192,38 +205,25 @@ void addInfo(CLI::App &app, Common &)
     command->add_flag("--json", options->json, "Print as JSON");
     addOpening(*command, options->open);
     command->callback([options] {
+        const auto tell = [&](const auto &json, const auto &...printed) {
+            if (options->json)
+                std::printf("%s\n", toJson(json).dump(2, ' ', true).c_str());
+            else
+                print(printed...);
+        };
         const Source source = sourceIn(options->file, options->open);
-        if (const auto pings = pingsOf(source)) {
-            if (options->json)
-                std::printf("%s\n", toJson(pings->scene()).dump(2, ' ', true).c_str());
-            else
-                print(*pings, options->file);
-            return;
-        }
-        if (const auto raw = source.hasSamples() ? nullptr : openRawPings(source.path, gridBeside(source.path))) {
-            if (options->json) {
-                Json json = toJson(raw->info());
-                json["values"] = valuesOf(*raw);
-                std::printf("%s\n", json.dump(2, ' ', true).c_str());
-            } else {
-                print(*raw);
-            }
-            return;
-        }
-        if (const auto power = !source.hasSamples() ? openPower(source.path) : nullptr) {
-            if (options->json)
-                std::printf("%s\n", toJson(power->info()).dump(2, ' ', true).c_str());
-            else
-                print(power->info());
-            return;
+        if (const auto pings = pingsOf(source))
+            return tell(pings->scene(), *pings, options->file);
+        if (!source.hasSamples()) {
+            if (const auto raw = openRawPings(source.path, gridBeside(source.path)))
+                return tell(*raw, *raw);
+            if (const auto power = openPower(source.path))
+                return tell(power->info(), power->info());
         }
         const RecordingPointer recording = openSamples(source);
         RecordingInfo info = recording->info();
         info.notes = notesOf(*recording);
-        if (options->json)
-            std::printf("%s\n", toJson(info).dump(2, ' ', true).c_str());
-        else
-            print(info);
+        tell(info, info);
     });
 }
 
