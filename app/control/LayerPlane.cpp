@@ -36,7 +36,7 @@ LineLayerPlane::LineLayerPlane(WaterfallView &view, Viewport &viewport, QObject 
     connect(&viewport, &Viewport::cursorChanged, this, &LayerPlane::cursorChanged);
 }
 
-LayerWindow LineLayerPlane::window(const Analysis &analysis) const
+LayerPart LineLayerPlane::window(const Analysis &analysis) const
 {
     const auto [beginFrame, endFrame] = cellsOf(analysis.time(), m_viewport.time());
     const auto [beginCell, endCell] = cellsOf(analysis.grid().axes.front(), m_viewport.frequency());
@@ -71,7 +71,7 @@ PingLayerPlane::PingLayerPlane(PingMap &map, PingViewports &viewports, QObject *
     connect(&map, &PingMap::polarChanged, this, &LayerPlane::shapeChanged);
 }
 
-LayerWindow PingLayerPlane::window(const Analysis &analysis) const
+LayerPart PingLayerPlane::window(const Analysis &analysis) const
 {
     const auto [rows, columns] = axes(analysis);
     const Viewport &viewport = m_viewports.map();
@@ -80,7 +80,7 @@ LayerWindow PingLayerPlane::window(const Analysis &analysis) const
     const bool isAllRound = viewport.frequency().width() > columns.step * double(columns.count - 1);
     const auto [firstColumn, endColumn] =
         isAllRound ? std::pair(Index(0), columns.count) : cellsOf(columns, viewport.frequency());
-    LayerWindow window{firstRow, endRow, firstColumn, endColumn, rows.count, columns.count};
+    LayerPart window{firstRow, endRow, firstColumn, endColumn, rows.count, columns.count};
     if (m_map.isPolar()) {
         const PolarView &polar = *m_map.polar();
         const double perPixel = polar.invTransform(QwtAxis::XBottom, 1.0) - polar.invTransform(QwtAxis::XBottom, 0.0);

@@ -13,7 +13,7 @@ namespace faintline {
 
 struct Analysis;
 class LayerItem;
-struct LayerWindow;
+struct LayerPart;
 class PingMap;
 class WaterfallView;
 
@@ -34,7 +34,7 @@ public:
     virtual const FramePlane &shown() const = 0;
     virtual std::optional<FramePlace> cursor() const = 0;
     /// The visible part, with a resolution limited to its pixels.
-    virtual LayerWindow window(const Analysis &analysis) const = 0;
+    virtual LayerPart window(const Analysis &analysis) const = 0;
     /// Rows and columns of that window.
     virtual std::pair<Axis, Axis> axes(const Analysis &analysis) const = 0;
     virtual void replot() = 0;
@@ -63,7 +63,7 @@ public:
     bool isOfOneFrame() const override { return false; }
     const FramePlane &shown() const override { return m_shown; }
     std::optional<FramePlace> cursor() const override { return cursorOf(m_viewport); }
-    LayerWindow window(const Analysis &analysis) const override;
+    LayerPart window(const Analysis &analysis) const override;
     std::pair<Axis, Axis> axes(const Analysis &analysis) const override;
     void replot() override;
 
@@ -81,7 +81,7 @@ public:
     bool isOfOneFrame() const override { return true; }
     const FramePlane &shown() const override { return m_viewports.plane(); }
     std::optional<FramePlace> cursor() const override { return cursorOf(m_viewports); }
-    LayerWindow window(const Analysis &analysis) const override;
+    LayerPart window(const Analysis &analysis) const override;
     std::pair<Axis, Axis> axes(const Analysis &analysis) const override;
     void replot() override;
 

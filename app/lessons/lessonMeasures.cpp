@@ -250,10 +250,7 @@ namespace {
 
     const Field<ScanTest> *testField(const std::string &name)
     {
-        const auto &fields = ScanTest::fields();
-        const auto found =
-            std::find_if(fields.begin(), fields.end(), [&](const auto &field) { return "test." + field.name == name; });
-        return found == fields.end() ? nullptr : &*found;
+        return begins(name, "test.") ? scanTestField(name.substr(5)) : nullptr;
     }
 
     std::optional<double> numberOf(const FieldValue &value)

@@ -54,8 +54,7 @@ namespace {
             if (!provenance.contains("chart") || provenance.contains("recording"))
                 throw Error(options.picture, "is not a chart of a test on radar scans; use faintline-cli replay for "
                                              "other tables");
-            ScanTest test;
-            readFields(provenance.at("sequential"), ScanTest::fields(), test, "sequential");
+            const ScanTest test = scanTestFromJson(provenance.at("sequential"), "sequential");
             checkScanTest(test);
             MainWindow window;
             window.setAsking(false);

@@ -37,15 +37,15 @@ public:
     std::span<const float> step();
     std::span<const float> statistic() const { return m_statistic; } ///< of the last frame
 
-    /// Takes the frames before `end` and calls look(frame) after each; `what` is the progress's. Throws Cancelled.
-    template <class Look>
-    void stepTo(Index end, const RunContext &context, std::string_view what, const Look &look)
+    /// Takes the frames before `end` and calls visit(frame) after each; `what` is the progress's. Throws Cancelled.
+    template <class Visit>
+    void stepTo(Index end, const RunContext &context, std::string_view what, const Visit &visit)
     {
         for (const Index first = m_next; m_next < end;) {
             context.checkpoint(double(m_next - first) / double(end - first), what);
             readAhead(end);
             step();
-            look(m_next - 1);
+            visit(m_next - 1);
         }
     }
     void stepTo(Index end, const RunContext &context, std::string_view what)

@@ -29,70 +29,16 @@ namespace {
         return rates;
     }
 
-} // namespace
-
-const std::vector<float> &LayerPicture::values(OutputLayer layer) const
-{
-    switch (layer) {
-    case OutputLayer::Rate:
-        return rate;
-    case OutputLayer::SecondRate:
-        return secondRate;
-    case OutputLayer::Age:
-        return age;
-    case OutputLayer::Reset:
-        return resetFraction;
-    case OutputLayer::Inhibited:
-        return inhibited;
-    case OutputLayer::Presence:
-        return presence;
-    case OutputLayer::Statistic:
-        break;
-    }
-    return statistic;
-}
-
-Index LayerPicture::pixelAt(Index row, Index column) const
-{
-    const Index r = row / perRow - firstRow;
-    const Index c = column / perColumn - firstColumn;
-    return row < 0 || column < 0 || r < 0 || r >= rows || c < 0 || c >= columns ? -1 : r * columns + c;
-}
-
-LayerPicture pixelsOf(const LayerWindow &window, Index rows, Index columns)
-{
-    const Index endRow = std::min(window.endRow, rows);
-    const Index endColumn = std::min(window.endColumn, columns);
-    const Index beginRow = std::clamp<Index>(window.beginRow, 0, endRow);
-    const Index beginColumn = std::clamp<Index>(window.beginColumn, 0, endColumn);
-    const auto per = [](Index length, Index most) {
-        return std::max<Index>(1, (length + most - 1) / std::max<Index>(1, most));
-    };
-    const auto count = [](Index begin, Index end, Index by) {
-        return end > begin ? (end - 1) / by - begin / by + 1 : 0;
-    };
-    LayerPicture picture;
-    picture.perRow = per(endRow - beginRow, window.mostRows);
-    picture.perColumn = per(endColumn - beginColumn, window.mostColumns);
-    picture.firstRow = beginRow / picture.perRow;
-    picture.firstColumn = beginColumn / picture.perColumn;
-    picture.rows = count(beginRow, endRow, picture.perRow);
-    picture.columns = count(beginColumn, endColumn, picture.perColumn);
-    return picture;
-}
-
-namespace {
-
-    /// A picture of a window, painted cell by cell.
+    /// A picture of a part, painted cell by cell.
     class LayerPainter
     {
     public:
-        LayerPainter(const Analysis &analysis, const LayerWindow &window, Index rows, Index columns,
+        LayerPainter(const Analysis &analysis, const LayerPart &part, Index rows, Index columns,
                      const FramePlane &plane = {})
             : m_rows(rows), m_columns(columns), m_frameSeconds(float(analysis.time().step)),
               m_rates(ratesOfPlanes(analysis, plane.along)), m_secondRates(ratesOfPlanes(analysis, plane.across))
         {
-            picture = pixelsOf(window, rows, columns);
+            picture = pixelsOf(part, rows, columns);
             const auto size = std::size_t(picture.rows * picture.columns);
             picture.statistic.assign(size, unreached);
             for (std::vector<float> *values :
@@ -109,7 +55,7 @@ namespace {
             return std::min((picture.firstColumn + picture.columns) * picture.perColumn, m_columns);
         }
 
-        /// Paints one row of the window; `cellsOf` calls a function with each cell of a column.
+        /// Paints one row of the part; `cellsOf` calls a function with each cell of a column.
         template <class CellsOf>
         void paintRow(Index row, const CellLayers &layers, CellsOf &&cellsOf)
         {
@@ -167,10 +113,60 @@ namespace {
 
 } // namespace
 
-LayerPicture layerPicture(LayerReplay &replay, const LayerWindow &window, const RunContext &context)
+const std::vector<float> &LayerPicture::values(OutputLayer layer) const
+{
+    switch (layer) {
+    case OutputLayer::Rate:
+        return rate;
+    case OutputLayer::SecondRate:
+        return secondRate;
+    case OutputLayer::Age:
+        return age;
+    case OutputLayer::Reset:
+        return resetFraction;
+    case OutputLayer::Inhibited:
+        return inhibited;
+    case OutputLayer::Presence:
+        return presence;
+    case OutputLayer::Statistic:
+        break;
+    }
+    return statistic;
+}
+
+Index LayerPicture::pixelAt(Index row, Index column) const
+{
+    const Index r = row / perRow - firstRow;
+    const Index c = column / perColumn - firstColumn;
+    return row < 0 || column < 0 || r < 0 || r >= rows || c < 0 || c >= columns ? -1 : r * columns + c;
+}
+
+LayerPicture pixelsOf(const LayerPart &part, Index rows, Index columns)
+{
+    const Index endRow = std::min(part.endRow, rows);
+    const Index endColumn = std::min(part.endColumn, columns);
+    const Index beginRow = std::clamp<Index>(part.beginRow, 0, endRow);
+    const Index beginColumn = std::clamp<Index>(part.beginColumn, 0, endColumn);
+    const auto per = [](Index length, Index most) {
+        return std::max<Index>(1, (length + most - 1) / std::max<Index>(1, most));
+    };
+    const auto count = [](Index begin, Index end, Index by) {
+        return end > begin ? (end - 1) / by - begin / by + 1 : 0;
+    };
+    LayerPicture picture;
+    picture.perRow = per(endRow - beginRow, part.mostRows);
+    picture.perColumn = per(endColumn - beginColumn, part.mostColumns);
+    picture.firstRow = beginRow / picture.perRow;
+    picture.firstColumn = beginColumn / picture.perColumn;
+    picture.rows = count(beginRow, endRow, picture.perRow);
+    picture.columns = count(beginColumn, endColumn, picture.perColumn);
+    return picture;
+}
+
+LayerPicture layerPicture(LayerReplay &replay, const LayerPart &part, const RunContext &context)
 {
     const Analysis &analysis = *replay.analysis();
-    LayerPainter painter(analysis, window, analysis.time().count, analysis.grid().size());
+    LayerPainter painter(analysis, part, analysis.time().count, analysis.grid().size());
     const Index first = painter.firstRow();
     const Index end = painter.endRow();
     for (Index frame = first; frame < end; ++frame) {
@@ -183,12 +179,12 @@ LayerPicture layerPicture(LayerReplay &replay, const LayerWindow &window, const 
     return std::move(painter.picture);
 }
 
-LayerPicture layerPictureOf(LayerReplay &replay, Index ping, const LayerWindow &window, const FramePlane &plane,
+LayerPicture layerPictureOf(LayerReplay &replay, Index ping, const LayerPart &part, const FramePlane &plane,
                             const RunContext &context)
 {
     const Analysis &analysis = *replay.analysis();
     const CellsBehind cells(analysis.grid(), plane);
-    LayerPainter painter(analysis, window, cells.rows(), cells.columns(), plane);
+    LayerPainter painter(analysis, part, cells.rows(), cells.columns(), plane);
     const CellLayers &layers = replay.at(ping, context);
     for (Index row = painter.firstRow(); row < painter.endRow(); ++row)
         painter.paintRow(row, layers, [&](Index column, auto paint) {
@@ -198,10 +194,10 @@ LayerPicture layerPictureOf(LayerReplay &replay, Index ping, const LayerWindow &
     return std::move(painter.picture);
 }
 
-LayerPicture presencePicture(const Analysis &analysis, const LayerWindow &window)
+LayerPicture presencePicture(const Analysis &analysis, const LayerPart &part)
 {
     const Index cells = analysis.grid().size();
-    LayerPicture picture = pixelsOf(window, analysis.time().count, cells);
+    LayerPicture picture = pixelsOf(part, analysis.time().count, cells);
     picture.presence.assign(std::size_t(picture.rows * picture.columns), 0.0f);
     for (const Track &track : analysis.tracks)
         for (std::size_t i = 0; i < track.points.size(); ++i) {

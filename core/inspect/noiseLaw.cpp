@@ -202,8 +202,8 @@ namespace {
             const Index count = m_frames.time().count;
             for (Index i = 0; i < stretches; ++i) {
                 const Index first = stretches == 1 ? (count - length) / 2 : i * (count - length) / (stretches - 1);
-                lookAt(first, first + length,
-                       m_context.part(double(i) / double(stretches), double(i + 1) / double(stretches)));
+                examine(first, first + length,
+                        m_context.part(double(i) / double(stretches), double(i + 1) / double(stretches)));
             }
             return m_fractions;
         }
@@ -211,7 +211,7 @@ namespace {
     private:
         using PointsByFrame = std::multimap<Index, std::pair<TrackInStretch *, Index>>;
 
-        void lookAt(Index first, Index end, const RunContext &context)
+        void examine(Index first, Index end, const RunContext &context)
         {
             std::vector<TrackInStretch> pieces = piecesOf(m_analysis.tracks, first, end);
             const PointsByFrame points = byFrame(pieces);

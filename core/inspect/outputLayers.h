@@ -109,14 +109,14 @@ inline constexpr std::array<std::string_view, 7> outputLayerNames{"statistic", "
 
 /// The displayed part in rows and columns, and the maximum number of either in the picture. For a recording a row is a
 /// frame and a column a cell; for one ping a row is a cell of the plane's axis `along`, a column one of `across`.
-struct LayerWindow {
+struct LayerPart {
     Index beginRow = 0, endRow = 0;
     Index beginColumn = 0, endColumn = 0;
     Index mostRows = 1, mostColumns = 1;
-    bool operator==(const LayerWindow &) const = default;
+    bool operator==(const LayerPart &) const = default;
 };
 
-/// Layers of a window, coarsened if it has more rows or columns than the picture may have: a pixel covers `perRow` ×
+/// Layers of a part, coarsened if it has more rows or columns than the picture may have: a pixel covers `perRow` ×
 /// `perColumn` of them, counted from 0, and shows the values of its cell with the largest D, so that a line one bin
 /// wide survives. Inhibited: whether any of them is.
 struct LayerPicture {
@@ -132,18 +132,18 @@ struct LayerPicture {
     std::vector<float> presence; ///< of presencePicture, which has no other layer
 
     const std::vector<float> &values(OutputLayer layer) const;
-    /// The pixel that covers a row and column of the window; -1 outside it.
+    /// The pixel that covers a row and column of the part; -1 outside it.
     Index pixelAt(Index row, Index column) const;
 };
 
-/// The pixels of a window's picture of `rows` × `columns`, without values.
-LayerPicture pixelsOf(const LayerWindow &window, Index rows, Index columns);
+/// The pixels of a part's picture of `rows` × `columns`, without values.
+LayerPicture pixelsOf(const LayerPart &part, Index rows, Index columns);
 
 /// For lines: frames × cells.
-LayerPicture layerPicture(LayerReplay &replay, const LayerWindow &window, const RunContext &context = {});
+LayerPicture layerPicture(LayerReplay &replay, const LayerPart &part, const RunContext &context = {});
 /// For a plane of one ping. Its rates are those along the axes shown; of the cells behind a place, the one with the
 /// largest D is shown. Precondition: the grid has both axes of the plane.
-LayerPicture layerPictureOf(LayerReplay &replay, Index ping, const LayerWindow &window, const FramePlane &plane = {},
+LayerPicture layerPictureOf(LayerReplay &replay, Index ping, const LayerPart &part, const FramePlane &plane = {},
                             const RunContext &context = {});
 
 /// Tracks as the two-sided second pass sees them (secondLook.h), and nothing else:
@@ -152,8 +152,8 @@ LayerPicture layerPictureOf(LayerReplay &replay, Index ping, const LayerWindow &
 ///
 /// The cell nearest to the track's position counts as inside, however narrow the band is. Tracks without a second pass
 /// count as present in the cells of their paths. A pixel shows the largest value of its cells. Nothing is run again:
-/// the cost is that of the window's pixels and of the tracks' points.
-LayerPicture presencePicture(const Analysis &analysis, const LayerWindow &window);
+/// the cost is that of the part's pixels and of the tracks' points.
+LayerPicture presencePicture(const Analysis &analysis, const LayerPart &part);
 
 /// The largest rate along an axis, in its unit per second; for a bank, over all its models.
 double largestRate(const Analysis &analysis, std::size_t axis);

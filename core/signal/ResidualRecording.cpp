@@ -18,57 +18,6 @@ namespace {
     constexpr Index silentRun = LineFit::silentSamples;
     constexpr std::string_view subtracting = "subtracting lines";
 
-} // namespace
-
-ResidualRecording::ResidualRecording(RecordingPointer base, int channel, std::vector<LinePath> paths,
-                                     const Recording *noise, const RunContext &context)
-    : m_base(std::move(base)), m_channel(channel)
-{
-    m_info = m_base->info();
-    std::vector<float> simulated;
-    for (LinePath &path : paths) {
-        const double done = double(m_lines.size()) / double(paths.size());
-        std::vector<const LineFit *> near;
-        for (const LineFit &line : m_lines)
-            if (line.comesNear(path, neighbourCells))
-                near.push_back(&line);
-        const auto read = [&](Index first, std::span<float> out) {
-            context.checkpoint(done, subtracting);
-            const Index samples = std::ssize(out) / m_info.floatsPerSample();
-            m_base->read(channel, first, samples, out);
-            if (noise) {
-                simulated.resize(out.size());
-                noise->read(0, first, samples, simulated);
-                std::transform(out.begin(), out.end(), simulated.begin(), out.begin(), std::minus<>());
-            }
-            for (const LineFit *line : near)
-                line->subtractFrom(first, out);
-        };
-        m_lines.emplace_back(LineFit::FitSamples{m_info, read}, std::move(path));
-    }
-    m_info.notes.push_back(std::to_string(m_lines.size()) + " line(s) were subtracted from channel "
-                           + std::to_string(channel) + ".");
-}
-
-void ResidualRecording::read(int channel, Index first, Index count, std::span<float> out) const
-{
-    if (channel != m_channel)
-        return m_base->read(channel, first, count, out);
-    fill(first, count, out, [&](Index from, std::span<float> inside) {
-        const Index floats = m_info.floatsPerSample();
-        const Index begin = from / silentRun * silentRun;
-        const Index end = (from + std::ssize(inside) / floats + silentRun - 1) / silentRun * silentRun;
-        std::vector<float> runs(std::size_t((end - begin) * floats));
-        m_base->read(channel, begin, end - begin, runs);
-        for (const LineFit &line : m_lines)
-            if (line.beginSample() < end && line.endSample() > begin)
-                line.subtractFrom(begin, runs);
-        std::copy_n(runs.begin() + (from - begin) * floats, inside.size(), inside.begin());
-    });
-}
-
-namespace {
-
     using Complex = std::complex<double>;
 
     constexpr Index fitRun = LineFit::silentSamples;
@@ -76,9 +25,9 @@ namespace {
     constexpr double beyondWindows = 2.0;       ///< search range for the line's ends beyond the path's ends, T_FT
     constexpr double insideWindows = 4.0;       ///< distance inside the path's ends where the line is certainly present
     constexpr double slopeWindows = 8.0;        ///< over which its slope is extrapolated
-    constexpr double stepWindows = 12.0;        ///< over which its phase is known beyond a fitted piece
+    constexpr double stepWindows = 12.0;        ///< over which its phase is known beyond a fitted segment
     constexpr int mostSteps = 8;                ///< steps outward from there
-    constexpr double shortestPiece = 0.25;      ///< minimum length of a fitted piece, T_FT
+    constexpr double shortestSegment = 0.25;    ///< minimum length of a fitted segment, T_FT
     constexpr std::size_t order = 4;            ///< order of the spline: coefficients per place
 
     Complex turned(double cycles)
@@ -162,7 +111,54 @@ namespace {
 
 } // namespace
 
-double LineFit::AmplitudePiece::intervals() const
+ResidualRecording::ResidualRecording(RecordingPointer base, int channel, std::vector<LinePath> paths,
+                                     const Recording *noise, const RunContext &context)
+    : m_base(std::move(base)), m_channel(channel)
+{
+    m_info = m_base->info();
+    std::vector<float> simulated;
+    for (LinePath &path : paths) {
+        const double done = double(m_lines.size()) / double(paths.size());
+        std::vector<const LineFit *> near;
+        for (const LineFit &line : m_lines)
+            if (line.comesNear(path, neighbourCells))
+                near.push_back(&line);
+        const auto read = [&](Index first, std::span<float> out) {
+            context.checkpoint(done, subtracting);
+            const Index samples = std::ssize(out) / m_info.floatsPerSample();
+            m_base->read(channel, first, samples, out);
+            if (noise) {
+                simulated.resize(out.size());
+                noise->read(0, first, samples, simulated);
+                std::transform(out.begin(), out.end(), simulated.begin(), out.begin(), std::minus<>());
+            }
+            for (const LineFit *line : near)
+                line->subtractFrom(first, out);
+        };
+        m_lines.emplace_back(LineFit::FitSamples{m_info, read}, std::move(path));
+    }
+    m_info.notes.push_back(std::to_string(m_lines.size()) + " line(s) were subtracted from channel "
+                           + std::to_string(channel) + ".");
+}
+
+void ResidualRecording::read(int channel, Index first, Index count, std::span<float> out) const
+{
+    if (channel != m_channel)
+        return m_base->read(channel, first, count, out);
+    fill(first, count, out, [&](Index from, std::span<float> inside) {
+        const Index floats = m_info.floatsPerSample();
+        const Index begin = from / silentRun * silentRun;
+        const Index end = (from + std::ssize(inside) / floats + silentRun - 1) / silentRun * silentRun;
+        std::vector<float> runs(std::size_t((end - begin) * floats));
+        m_base->read(channel, begin, end - begin, runs);
+        for (const LineFit &line : m_lines)
+            if (line.beginSample() < end && line.endSample() > begin)
+                line.subtractFrom(begin, runs);
+        std::copy_n(runs.begin() + (from - begin) * floats, inside.size(), inside.begin());
+    });
+}
+
+double LineFit::AmplitudeSegment::intervals() const
 {
     return double(coefficients.size() / 2 - (order - 1));
 }
@@ -226,10 +222,10 @@ LineFit::LineFit(const FitSamples &samples, LinePath path)
         return std::clamp<Index>(Index(std::llround(seconds * m_rate)), 0, samples.info.sampleCount);
     };
     const double window = m_path.windowSeconds;
-    const AmplitudePiece sure{
+    const AmplitudeSegment sure{
         sampleAt(m_path.fromSeconds + insideWindows * window), sampleAt(m_path.toSeconds - insideWindows * window), {}};
     if (double(sure.end - sure.begin) < 2.0 * window * m_rate) { // too short to extrapolate
-        const AmplitudePiece all{
+        const AmplitudeSegment all{
             sampleAt(m_path.fromSeconds - 0.5 * window), sampleAt(m_path.toSeconds + 0.5 * window), {}};
         add(fitted(samples, all));
         return;
@@ -237,7 +233,7 @@ LineFit::LineFit(const FitSamples &samples, LinePath path)
     const Index first = sampleAt(m_path.fromSeconds - beyondWindows * window);
     const Index last = sampleAt(m_path.toSeconds + beyondWindows * window);
     follow(fitted(samples, sure), true, true);
-    const AmplitudePiece line{goOn(samples, sure, first), goOn(samples, sure, last), {}};
+    const AmplitudeSegment line{goOn(samples, sure, first), goOn(samples, sure, last), {}};
     follow(fitted(samples, line), true, true);
     add(fitted(samples, {first, line.begin, {}}));
     add(fitted(samples, line));
@@ -245,17 +241,17 @@ LineFit::LineFit(const FitSamples &samples, LinePath path)
 }
 
 /// Extends the line outward step by step, because its phase is only known over a short distance.
-Index LineFit::goOn(const FitSamples &samples, const AmplitudePiece &sure, Index farthest)
+Index LineFit::goOn(const FitSamples &samples, const AmplitudeSegment &sure, Index farthest)
 {
     const bool isBegin = farthest < sure.begin;
     const auto reach = Index(stepWindows * m_path.windowSeconds * m_rate);
     Index known = isBegin ? sure.begin : sure.end;
     for (int step = 0; step < mostSteps; ++step) {
-        const AmplitudePiece end = isBegin ? AmplitudePiece{known, std::min(sure.end, known + reach), {}}
-                                           : AmplitudePiece{std::max(sure.begin, known - reach), known, {}};
+        const AmplitudeSegment end = isBegin ? AmplitudeSegment{known, std::min(sure.end, known + reach), {}}
+                                             : AmplitudeSegment{std::max(sure.begin, known - reach), known, {}};
         if (step > 0)
             follow(fitted(samples, end), isBegin, !isBegin);
-        const Index next = brink(samples, fitted(samples, end), isBegin, farthest);
+        const Index next = lineEnd(samples, fitted(samples, end), isBegin, farthest);
         if (next == known)
             break;
         known = next;
@@ -263,23 +259,23 @@ Index LineFit::goOn(const FitSamples &samples, const AmplitudePiece &sure, Index
     return known;
 }
 
-/// Corrects the path's curve by the amplitude's phase, and extends it straight beyond a piece at its beginning or end.
-void LineFit::follow(const AmplitudePiece &piece, bool isBegin, bool isEnd)
+/// Corrects the path's curve by the amplitude's phase, and extends it straight beyond a segment at its beginning or end.
+void LineFit::follow(const AmplitudeSegment &segment, bool isBegin, bool isEnd)
 {
     const Axis &time = m_path.curve.time();
-    const double intervals = piece.intervals();
-    const double perSample = intervals / double(piece.end - piece.begin);
+    const double intervals = segment.intervals();
+    const double perSample = intervals / double(segment.end - segment.begin);
     const auto knotAt = [&](Index sample) {
         return std::clamp<Index>(Index(std::llround(time.position(double(sample) / m_rate))), 0, time.count - 1);
     };
-    const Index from = knotAt(piece.begin);
-    const Index to = knotAt(piece.end);
+    const Index from = knotAt(segment.begin);
+    const Index to = knotAt(segment.end);
     std::vector<double> hz = m_path.curve.hz();
     for (Index knot = from; knot <= to; ++knot) {
-        const double position = (time.value(double(knot)) * m_rate - double(piece.begin)) * perSample;
+        const double position = (time.value(double(knot)) * m_rate - double(segment.begin)) * perSample;
         const double middle = std::clamp(position, 0.5, intervals - 0.5);
-        const Complex turn = amplitudeAt(piece.coefficients, middle + 0.5, intervals)
-                             * std::conj(amplitudeAt(piece.coefficients, middle - 0.5, intervals));
+        const Complex turn = amplitudeAt(segment.coefficients, middle + 0.5, intervals)
+                             * std::conj(amplitudeAt(segment.coefficients, middle - 0.5, intervals));
         hz[std::size_t(knot)] += std::arg(turn) / (2.0 * std::numbers::pi) * perSample * m_rate;
     }
     const auto slope = [&](Index first, Index last) { // Hz per knot
@@ -295,37 +291,37 @@ void LineFit::follow(const AmplitudePiece &piece, bool isBegin, bool isEnd)
     m_path.curve = FrequencyCurve(time, std::move(hz));
 }
 
-void LineFit::add(AmplitudePiece piece)
+void LineFit::add(AmplitudeSegment segment)
 {
-    if (!piece.coefficients.empty())
-        m_pieces.push_back(std::move(piece));
+    if (!segment.coefficients.empty())
+        m_segments.push_back(std::move(segment));
 }
 
-LineFit::AmplitudePiece LineFit::fitted(const FitSamples &samples, AmplitudePiece piece) const
+LineFit::AmplitudeSegment LineFit::fitted(const FitSamples &samples, AmplitudeSegment segment) const
 {
-    const double length = double(piece.end - piece.begin) / (m_path.windowSeconds * m_rate);
-    if (length < shortestPiece)
-        return piece;
+    const double length = double(segment.end - segment.begin) / (m_path.windowSeconds * m_rate);
+    if (length < shortestSegment)
+        return segment;
     const auto intervals = std::size_t(std::max(1.0, std::round(length)));
-    const double perSample = double(intervals) / double(piece.end - piece.begin);
+    const double perSample = double(intervals) / double(segment.end - segment.begin);
     Equations equations(2 * (intervals + order - 1));
-    forRuns(samples, piece.begin, piece.end, [&](Index first, std::span<const float> values) {
+    forRuns(samples, segment.begin, segment.end, [&](Index first, std::span<const float> values) {
         const auto factors = phasors(m_path.curve, m_rate, first);
-        for (Index n = std::max(first, piece.begin); n < std::min(first + fitRun, piece.end); ++n) {
+        for (Index n = std::max(first, segment.begin); n < std::min(first + fitRun, segment.end); ++n) {
             const auto i = std::size_t(n - first);
-            const Basis basis = basisAt(double(n - piece.begin) * perSample, double(intervals));
+            const Basis basis = basisAt(double(n - segment.begin) * perSample, double(intervals));
             equations.add(basis, factors[i], double(values[m_isComplex ? 2 * i : i]));
             if (m_isComplex)
                 equations.add(basis, factors[i] * Complex(0.0, -1.0), double(values[2 * i + 1]));
         }
     });
-    piece.coefficients = equations.solution();
-    return piece;
+    segment.coefficients = equations.solution();
+    return segment;
 }
 
 /// Extrapolates the line beyond an end of the known part and finds where the energy that it explains, Σ 2·x·s - s², is
 /// largest.
-Index LineFit::brink(const FitSamples &samples, const AmplitudePiece &inner, bool isBegin, Index farthest) const
+Index LineFit::lineEnd(const FitSamples &samples, const AmplitudeSegment &inner, bool isBegin, Index farthest) const
 {
     const double intervals = inner.intervals();
     const double perSample = intervals / double(inner.end - inner.begin);
@@ -379,18 +375,18 @@ void LineFit::subtractFrom(Index first, std::span<float> samples) const
 {
     const Index floats = m_isComplex ? 2 : 1;
     const Index end = first + std::ssize(samples) / floats;
-    for (const AmplitudePiece &piece : m_pieces) {
-        const double intervals = piece.intervals();
-        const double perSample = intervals / double(piece.end - piece.begin);
-        for (Index at = std::max(first, runBefore(piece.begin)); at < std::min(end, piece.end); at += fitRun) {
+    for (const AmplitudeSegment &segment : m_segments) {
+        const double intervals = segment.intervals();
+        const double perSample = intervals / double(segment.end - segment.begin);
+        for (Index at = std::max(first, runBefore(segment.begin)); at < std::min(end, segment.end); at += fitRun) {
             const auto values = samples.subspan(std::size_t((at - first) * floats), std::size_t(fitRun * floats));
             if (isSilent(values))
                 continue;
             const auto factors = phasors(m_path.curve, m_rate, at);
-            for (Index n = std::max(at, piece.begin); n < std::min(at + fitRun, piece.end); ++n) {
+            for (Index n = std::max(at, segment.begin); n < std::min(at + fitRun, segment.end); ++n) {
                 const auto i = std::size_t(n - at);
                 const Complex s =
-                    amplitudeAt(piece.coefficients, double(n - piece.begin) * perSample, intervals) * factors[i];
+                    amplitudeAt(segment.coefficients, double(n - segment.begin) * perSample, intervals) * factors[i];
                 if (!m_isComplex) {
                     values[i] -= float(s.real());
                     continue;

@@ -46,8 +46,8 @@ public:
 
     /// The path with its curve corrected by the phase of the amplitude.
     const LinePath &path() const { return m_path; }
-    Index beginSample() const { return m_pieces.empty() ? 0 : m_pieces.front().begin; }
-    Index endSample() const { return m_pieces.empty() ? 0 : m_pieces.back().end; }
+    Index beginSample() const { return m_segments.empty() ? 0 : m_segments.front().begin; }
+    Index endSample() const { return m_segments.empty() ? 0 : m_segments.back().end; }
 
     /// Whether both lines come within `cells` resolution cells of each other at any time.
     bool comesNear(const LinePath &other, double cells) const;
@@ -57,7 +57,7 @@ public:
 
 private:
     /// One stretch of the amplitude without a break.
-    struct AmplitudePiece {
+    struct AmplitudeSegment {
         Index begin = 0;
         Index end = 0;
         std::vector<double> coefficients; ///< real and imaginary parts alternate
@@ -66,16 +66,16 @@ private:
     };
     class Equations;
 
-    AmplitudePiece fitted(const FitSamples &samples, AmplitudePiece piece) const;
-    void add(AmplitudePiece piece);
-    Index goOn(const FitSamples &samples, const AmplitudePiece &sure, Index farthest);
-    void follow(const AmplitudePiece &piece, bool isBegin, bool isEnd);
-    Index brink(const FitSamples &samples, const AmplitudePiece &inner, bool isBegin, Index farthest) const;
+    AmplitudeSegment fitted(const FitSamples &samples, AmplitudeSegment segment) const;
+    void add(AmplitudeSegment segment);
+    Index goOn(const FitSamples &samples, const AmplitudeSegment &sure, Index farthest);
+    void follow(const AmplitudeSegment &segment, bool isBegin, bool isEnd);
+    Index lineEnd(const FitSamples &samples, const AmplitudeSegment &inner, bool isBegin, Index farthest) const;
 
     LinePath m_path;
     double m_rate;
     bool m_isComplex;
-    std::vector<AmplitudePiece> m_pieces;
+    std::vector<AmplitudeSegment> m_segments;
 };
 
 /// A recording minus strong lines of one of its channels. Each line is fitted in amplitude and phase (LineFit) and

@@ -287,8 +287,8 @@ bool Timeline::isFinite(int channel, Index first, Index count) const
 /// Uses the first file that is not silent; all come from one recorder.
 int Timeline::scaleExponent(int channel) const
 {
-    constexpr std::size_t mostLookedAt = 16;
-    const std::size_t step = std::max<std::size_t>(1, m_parts.size() / mostLookedAt);
+    constexpr std::size_t mostAskedParts = 16;
+    const std::size_t step = std::max<std::size_t>(1, m_parts.size() / mostAskedParts);
     for (std::size_t number = 0; number < m_parts.size(); number += step)
         if (const int exponent = partAt(number)->scaleExponent(channel); exponent != 0)
             return exponent;

@@ -351,11 +351,27 @@ private slots:
         QVERIFY(relativeEntropyRate(10, 1.0) > relativeEntropyRate(100, 1.0));
     }
 
+    void namesOfEarlierVersionsAreRead()
+    {
+        ScanTest test;
+        setScanTestField(test, "survey.sectors=8");
+        setScanTestField(test, "sectors.rounds=3");
+        QCOMPARE(test.sectors, 8);
+        QCOMPARE(test.rounds, 3);
+        Json json = writeFields(test, ScanTest::fields());
+        QCOMPARE(scanTestFromJson(json, "test"), test);
+        json.erase("sectors.count");
+        json["survey.sectors"] = 8;
+        QCOMPARE(scanTestFromJson(json, "test"), test);
+        QCOMPARE(scanTestField("survey.targetSectors"), scanTestField("sectors.withTarget"));
+        QVERIFY(!scanTestField("survey.unknown"));
+    }
+
     void refusals_data()
     {
         QTest::addColumn<QString>("member");
         for (const char *name : {"sprt.falseAlarm", "sprt.cutOffStage", "scene.rangeCells", "design.averagedCells",
-                                 "survey.targetSectors", "runs.walks"})
+                                 "sectors.withTarget", "runs.walks"})
             QTest::newRow(name) << name;
     }
 
@@ -372,7 +388,7 @@ private slots:
             test.scene.rangeCells = 1 << 20;
         else if (member == "design.averagedCells")
             test.averagedCells = 100;
-        else if (member == "survey.targetSectors")
+        else if (member == "sectors.withTarget")
             test.targetSectors = 13;
         else
             test.walks = 0;

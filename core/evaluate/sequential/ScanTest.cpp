@@ -39,10 +39,77 @@ namespace {
         return scene;
     }
 
+    /// The name of a setting, from one that earlier versions gave it, too.
+    std::string currentName(const std::string &name)
+    {
+        return name == "survey.sectors"         ? "sectors.count"
+               : name == "survey.targetSectors" ? "sectors.withTarget"
+               : name == "survey.rounds"        ? "sectors.rounds"
+                                                : name;
+    }
+
     /// Stream of the scene: the two hypotheses do not share their noise.
     int streamOf(const ScanRun &run)
     {
         return 2 * run.number + (run.hasTarget ? 1 : 0);
+    }
+
+    const std::string onNoise = "H0, noise only";
+    const std::string withTarget = "H1, a target";
+
+    void sortBySnr(std::vector<ScanPoint> &points)
+    {
+        std::sort(points.begin(), points.end(),
+                  [](const ScanPoint &a, const ScanPoint &b) { return a.snrDb < b.snrDb; });
+    }
+
+    Curve::Point pointAt(double x, const Estimate &estimate)
+    {
+        return {x, estimate.value, estimate.interval()};
+    }
+
+    /// The curves of both hypotheses.
+    std::vector<Curve> measured(const std::vector<ScanPoint> &points, Estimate SequentialOutcome::*what)
+    {
+        Curve h0{onNoise, Curve::Kind::Measured, {}};
+        Curve h1{withTarget, Curve::Kind::Measured, {}};
+        for (const ScanPoint &point : points) {
+            h0.points.push_back(pointAt(point.snrDb, point.h0.*what));
+            h1.points.push_back(pointAt(point.snrDb, point.h1.*what));
+        }
+        return {std::move(h0), std::move(h1)};
+    }
+
+    struct Bound {
+        const char *name;
+        double WaldBounds::*value;
+        bool isOfTarget;
+    };
+    constexpr Bound bounds[] = {{", (8b) lower", &WaldBounds::h0Low, false},
+                                {", (8b) upper", &WaldBounds::h0High, false},
+                                {", (8a) lower", &WaldBounds::h1Low, true},
+                                {", (8a) upper", &WaldBounds::h1High, true}};
+
+    std::string boundName(const Bound &bound)
+    {
+        return (bound.isOfTarget ? withTarget : onNoise) + bound.name;
+    }
+
+    /// Bound for designs at the true SNR; with a single design, a target's bounds are a short dash there.
+    Curve boundCurve(const std::vector<ScanPoint> &points, const Bound &bound)
+    {
+        constexpr double halfDashDb = 0.6;
+        Curve curve{boundName(bound), Curve::Kind::Theory, {}};
+        const bool isOneDesign = points.front().designSnrDb == points.back().designSnrDb;
+        if (isOneDesign && bound.isOfTarget) {
+            const double at = points.front().designSnrDb;
+            const double value = points.front().bounds.*bound.value;
+            curve.points = {{at - halfDashDb, value, {}}, {at + halfDashDb, value, {}}};
+            return curve;
+        }
+        for (const ScanPoint &point : points)
+            curve.points.push_back({point.snrDb, point.bounds.*bound.value, {}});
+        return curve;
     }
 
 } // namespace
@@ -78,13 +145,13 @@ const std::vector<Field<ScanTest>> &ScanTest::fields()
                                    "proportional to it."));
         all.push_back(field(&S::designFollows, "runs.designFollows", "Design the test for each SNR of the curves.")
                           .labelled("Design at each SNR"));
-        all.push_back(
-            field(&S::sectors, "survey.sectors", "", 1.0, 360.0, "Number of angular sectors visited in turn."));
-        all.push_back(field(&S::targetSectors, "survey.targetSectors", "", 0.0, 360.0,
+        all.push_back(field(&S::sectors, "sectors.count", "", 1.0, 360.0, "Number of angular sectors visited in turn.")
+                          .labelled("Sectors"));
+        all.push_back(field(&S::targetSectors, "sectors.withTarget", "", 0.0, 360.0,
                             "Number of sectors with a "
                             "target.")
                           .labelled("With a target"));
-        all.push_back(field(&S::rounds, "survey.rounds", "", 1.0, 1000.0, "Number of looks at each sector."));
+        all.push_back(field(&S::rounds, "sectors.rounds", "", 1.0, 1000.0, "Number of looks at each sector."));
         return all;
     }();
     return table;
@@ -99,13 +166,31 @@ ScanTest scanTestOf(const ScanScene &scene)
     return test;
 }
 
+const Field<ScanTest> *scanTestField(const std::string &name)
+{
+    const auto found = std::ranges::find(ScanTest::fields(), currentName(name), &FieldInfo::name);
+    return found == ScanTest::fields().end() ? nullptr : &*found;
+}
+
+ScanTest scanTestFromJson(const Json &json, const std::string &where)
+{
+    Json renamed = json;
+    for (const char *name : {"survey.sectors", "survey.targetSectors", "survey.rounds"})
+        if (json.is_object() && json.contains(name)) {
+            renamed[currentName(name)] = json[name];
+            renamed.erase(name);
+        }
+    ScanTest test;
+    readFields(renamed, ScanTest::fields(), test, where);
+    return test;
+}
+
 void setScanTestField(ScanTest &test, const std::string &assignment)
 {
     const std::size_t equals = assignment.find('=');
     const std::string name = assignment.substr(0, equals);
-    for (const Field<ScanTest> &one : ScanTest::fields())
-        if (one.name == name && equals != std::string::npos)
-            return one.set(test, parseFieldValue(one, assignment.substr(equals + 1)));
+    if (const Field<ScanTest> *field = scanTestField(name); field && equals != std::string::npos)
+        return field->set(test, parseFieldValue(*field, assignment.substr(equals + 1)));
     throw Error(assignment,
                 "must be name=value; settings of a radar test are " + listed(ScanTest::fields(), &FieldInfo::name));
 }
@@ -128,7 +213,7 @@ void checkScanTest(const ScanTest &test)
         throw fieldError("design.averagedCells", std::to_string(test.averagedCells),
                          "must be less than the " + std::to_string(test.scene.rangeCells) + " range cells");
     if (test.targetSectors > test.sectors)
-        throw fieldError("survey.targetSectors", std::to_string(test.targetSectors),
+        throw fieldError("sectors.withTarget", std::to_string(test.targetSectors),
                          "must be at most the number of sectors, " + std::to_string(test.sectors));
 }
 
@@ -224,68 +309,6 @@ std::optional<Index> fixedSizeOf(const ScanTest &test, const RunContext &context
     study.trials = Index(std::clamp(3.0 / test.sprt.miss, 200.0, 2000.0));
     return simulatedFixedSampleSize(study, fixedSampleLimitStages, context);
 }
-
-namespace {
-
-    const std::string onNoise = "H0, noise only";
-    const std::string withTarget = "H1, a target";
-
-    void sortBySnr(std::vector<ScanPoint> &points)
-    {
-        std::sort(points.begin(), points.end(),
-                  [](const ScanPoint &a, const ScanPoint &b) { return a.snrDb < b.snrDb; });
-    }
-
-    Curve::Point pointAt(double x, const Estimate &estimate)
-    {
-        return {x, estimate.value, estimate.interval()};
-    }
-
-    /// The curves of both hypotheses.
-    std::vector<Curve> measured(const std::vector<ScanPoint> &points, Estimate SequentialOutcome::*what)
-    {
-        Curve h0{onNoise, Curve::Kind::Measured, {}};
-        Curve h1{withTarget, Curve::Kind::Measured, {}};
-        for (const ScanPoint &point : points) {
-            h0.points.push_back(pointAt(point.snrDb, point.h0.*what));
-            h1.points.push_back(pointAt(point.snrDb, point.h1.*what));
-        }
-        return {std::move(h0), std::move(h1)};
-    }
-
-    struct Bound {
-        const char *name;
-        double WaldBounds::*value;
-        bool isOfTarget;
-    };
-    constexpr Bound bounds[] = {{", (8b) lower", &WaldBounds::h0Low, false},
-                                {", (8b) upper", &WaldBounds::h0High, false},
-                                {", (8a) lower", &WaldBounds::h1Low, true},
-                                {", (8a) upper", &WaldBounds::h1High, true}};
-
-    std::string boundName(const Bound &bound)
-    {
-        return (bound.isOfTarget ? withTarget : onNoise) + bound.name;
-    }
-
-    /// Bound for designs at the true SNR; with a single design, a target's bounds are a short dash there.
-    Curve boundCurve(const std::vector<ScanPoint> &points, const Bound &bound)
-    {
-        constexpr double halfDashDb = 0.6;
-        Curve curve{boundName(bound), Curve::Kind::Theory, {}};
-        const bool isOneDesign = points.front().designSnrDb == points.back().designSnrDb;
-        if (isOneDesign && bound.isOfTarget) {
-            const double at = points.front().designSnrDb;
-            const double value = points.front().bounds.*bound.value;
-            curve.points = {{at - halfDashDb, value, {}}, {at + halfDashDb, value, {}}};
-            return curve;
-        }
-        for (const ScanPoint &point : points)
-            curve.points.push_back({point.snrDb, point.bounds.*bound.value, {}});
-        return curve;
-    }
-
-} // namespace
 
 std::vector<double> curveSnrs(const ScanTest &test)
 {

@@ -38,6 +38,12 @@ struct ScanTest {
 /// The test for a scene: designed for its SNR, with its stages as cut-off.
 ScanTest scanTestOf(const ScanScene &scene);
 
+/// The field of that name; null if there is none. This and the following know the names of earlier versions, too.
+const Field<ScanTest> *scanTestField(const std::string &name);
+
+/// Reads what writeFields made. Throws Error naming `where`.
+ScanTest scanTestFromJson(const Json &json, const std::string &where);
+
 /// Sets one member from "name=value". Throws Error.
 void setScanTestField(ScanTest &test, const std::string &assignment);
 
