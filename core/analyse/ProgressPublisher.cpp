@@ -1,5 +1,6 @@
 #include "analyse/ProgressPublisher.h"
 
+#include "analyse/constants.h"
 #include "frames/PeakPyramid.h"
 
 #include <algorithm>
@@ -9,10 +10,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr double affordableSamples = 33554432.0;
-    constexpr Index mostFrames = 256;
-    constexpr Index fewestShownFrames = 32;
 
     /// A quick look at a recording of any length: frames spread evenly over it, in dB over a background from a few of
     /// them.
@@ -26,8 +23,8 @@ namespace {
         const NormalisedSpectrogram frames(spectrogram, background, settings);
         const Index all = frames.time().count;
         const double perFrame = spectrogram->windowSamples() * spectrogram->settings().binsPerCell;
-        const auto affordable = Index(affordableSamples / perFrame);
-        const Index count = std::min(all, std::clamp(affordable, fewestShownFrames, mostFrames));
+        const auto affordable = Index(quickLookSamples / perFrame);
+        const Index count = std::min(all, std::clamp(affordable, fewestQuickLookFrames, quickLookFrameLimit));
 
         Axis time = frames.time();
         time.step *= double(all) / double(count);

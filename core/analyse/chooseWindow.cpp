@@ -1,5 +1,6 @@
 #include "analyse/chooseWindow.h"
 
+#include "analyse/constants.h"
 #include "analyse/runAnalysis.h"
 #include "plan/Analysis.h"
 #include "plan/sureStatistic.h"
@@ -16,13 +17,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr double factor = 4.0;        ///< ratio of consecutive windows
-    constexpr double tooFast = 1.0 / 3.0; ///< below it the longer window loses moving signals
-    constexpr double asGood = 0.85;       ///< from there on it loses almost nothing
-    constexpr double fewestCellsOfBand = 24.0;
-    constexpr double fewestFramesOfTrial = 16.0;
-    constexpr std::size_t trialLimit = 5;
 
     ModelSettings withLaw(ModelSettings model, const ModelSettings &law)
     {
@@ -94,7 +88,7 @@ namespace {
         std::vector<std::shared_ptr<const Analysis>> others(const Analysis &chosen)
         {
             const double own = windowSecondsOf(chosen) / m_windowSeconds;
-            for (const double step : {1.0 / factor, factor, own / factor, own * factor})
+            for (const double step : {1.0 / windowRatio, windowRatio, own / windowRatio, own * windowRatio})
                 ask(step);
             if (std::ranges::any_of(m_analyses, [](const auto &analysis) { return isSure(*analysis); }))
                 ask(0.5 * own);
@@ -128,14 +122,14 @@ namespace {
         std::shared_ptr<Analysis> shorter(const Analysis &automatic)
         {
             std::shared_ptr<Analysis> best;
-            for (double step = 1.0 / factor; m_cells * step >= fewestCellsOfBand && m_trials.size() < trialLimit;
-                 step /= factor) {
+            for (double step = 1.0 / windowRatio;
+                 m_cells * step >= narrowestBandCells && m_trials.size() < windowTrialLimit; step /= windowRatio) {
                 auto trial = tried(step, laws::glide());
                 const double kept = shareKept(*trial, best ? *best : automatic);
                 m_trials.front().kept = kept;
                 if (std::isnan(kept)) // nothing to compare
                     break;
-                if (kept >= tooFast)
+                if (kept >= lostEnergyShare)
                     return best;
                 best = std::move(trial);
             }
@@ -157,7 +151,7 @@ namespace {
 
         bool isFeasible(double step) const
         {
-            return m_cells * step >= fewestCellsOfBand && isBorne(step, double(OwnNoiseLaw::fewestFrames));
+            return m_cells * step >= narrowestBandCells && isBorne(step, double(OwnNoiseLaw::fewestFrames));
         }
 
         /// Whether there are enough frames and memory: an automatic window is bounded for any length of recording.
@@ -170,12 +164,13 @@ namespace {
 
         std::shared_ptr<Analysis> longer(std::shared_ptr<Analysis> best)
         {
-            for (double step = factor;
-                 isBorne(step, fewestFramesOfTrial) && m_trials.size() < trialLimit && isSure(*best); step *= factor) {
+            for (double step = windowRatio;
+                 isBorne(step, fewestTrialFrames) && m_trials.size() < windowTrialLimit && isSure(*best);
+                 step *= windowRatio) {
                 auto trial = tried(step, m_asked.model);
                 const double kept = shareKept(*best, *trial);
                 (m_trials.end() - 2)->kept = kept;
-                if (!(kept >= asGood))
+                if (!(kept >= keptEnergyShare))
                     break;
                 best = std::move(trial);
             }
@@ -251,8 +246,8 @@ namespace {
         const double bandHz = double(found.grid().axes.back().count) * found.grid().axes.back().step;
         while (asked.isTooLong) {
             WindowTrial next = tried.trials.front();
-            next.windowSeconds /= factor;
-            if (bandHz * next.windowSeconds < fewestCellsOfBand)
+            next.windowSeconds /= windowRatio;
+            if (bandHz * next.windowSeconds < narrowestBandCells)
                 return;
             next.settings = inWindowOf(next, next.settings);
             next.kept = std::numeric_limits<double>::quiet_NaN();
@@ -279,88 +274,6 @@ namespace {
         return a.selection == b.selection && a.spectrogram == b.spectrogram && a.noise == b.noise && a.model == b.model
                && a.detector == b.detector;
     }
-
-} // namespace
-
-bool leavesWindowToRecording(const AnalysisSettings &settings)
-{
-    const ModelSettings &model = settings.model;
-    return settings.spectrogram.windowSeconds == 0.0 && settings.track.bothWays && canLookTwice(settings)
-           && model.motion == Motion::Slopes && model == withLaw(model, ModelSettings());
-}
-
-AnalysisSettings inWindowOf(const WindowTrial &trial, AnalysisSettings settings)
-{
-    settings.spectrogram.windowSeconds = trial.windowSeconds;
-    settings.model = withLaw(settings.model, trial.settings.model);
-    return settings;
-}
-
-AnalysisSettings inWindowOf(const Analysis &analysis, const AnalysisSettings &settings)
-{
-    const auto &choice = analysis.choice;
-    const bool isOther = choice && choice->chosen != choice->automatic && leavesWindowToRecording(settings);
-    return isOther ? inWindowOf(choice->trials[choice->chosen], settings) : settings;
-}
-
-std::shared_ptr<const Analysis> runInChosenWindow(const RecordingPointer &recording, const AnalysisSettings &settings,
-                                                  const AnalysisRequest &request, const RunContext &whole)
-{
-    const Analysis *previous = request.previous;
-    AnalysisRequest wanted = request;
-    wanted.statistic = {};
-    wanted.statisticBegins = {};
-    const RunContext context = whole.part(0.0, request.statistic ? 0.7 : 1.0);
-    const bool isChosen = previous && previous->recording == recording && previous->choice
-                          && !previous->calibration->isFirstEstimate
-                          && asksForTheSame(previous->choice->asked, settings);
-    const bool subtracts = settings.subtract.lines;
-    AnalysisSettings asked = settings; // subtraction does not affect the choice
-    asked.subtract.lines = false;
-    const double searched = isChosen ? 0.0 : subtracts ? 0.4 : 0.7; // shares of the progress
-    const double compared = 0.98;
-    const double detected = isChosen ? 0.6 : subtracts ? 0.8 : compared;
-    WindowChoice choice;
-    std::vector<std::shared_ptr<const Analysis>> others;
-    std::shared_ptr<Analysis> trial;
-    if (isChosen) {
-        choice = *previous->choice;
-        others = previous->others;
-    } else {
-        WindowSearch search(recording, asked, wanted.calibration, subtracts ? AnalysisDepth::Trial : wanted.depth,
-                            context.part(0.0, searched));
-        trial = search.run(previous, wanted.pictures);
-        others = search.others(*trial);
-        choice = search.choice(*trial);
-        wanted.previous = trial.get();
-    }
-    choice.asked = settings;
-    const std::shared_ptr<Analysis> found =
-        runOnRecording(recording, ofTrial(choice, choice.chosen, settings), wanted, context.part(searched, detected));
-    trial = {};
-    const auto count = double(others.size());
-    if (isChosen || subtracts) // after the pictures, which the user waits for; the search ran without subtraction
-        for (std::size_t i = 0; i < others.size(); ++i) {
-            const std::shared_ptr<const Analysis> tried = others[i];
-            const RunContext part = context.part(detected, compared).part(double(i) / count, double(i + 1) / count);
-            others[i] = runOnRecording(recording, ofTrial(choice, i < choice.chosen ? i : i + 1, settings),
-                                       trialRequest(wanted.calibration, tried.get()), part);
-        }
-    found->others = std::move(others);
-    askWindows(*found, choice, settings, wanted.calibration, context.part(compared, 1.0));
-    choice.fromOthers = std::count_if(found->tracks.begin(), found->tracks.end(),
-                                      [](const Track &track) { return track.windowSeconds > 0.0; });
-    found->choice = std::move(choice);
-    if (request.statistic) {
-        RunRequest again = trialRequest(request.calibration, found.get());
-        again.statistic = request.statistic;
-        again.statisticBegins = request.statisticBegins;
-        runOnRecording(recording, found->settings, again, whole.part(0.7, 1.0));
-    }
-    return found;
-}
-
-namespace {
 
     struct Extent {
         double low;
@@ -449,6 +362,84 @@ namespace {
     }
 
 } // namespace
+
+bool leavesWindowToRecording(const AnalysisSettings &settings)
+{
+    const ModelSettings &model = settings.model;
+    return settings.spectrogram.windowSeconds == 0.0 && settings.track.bothWays && canLookTwice(settings)
+           && model.motion == Motion::Slopes && model == withLaw(model, ModelSettings());
+}
+
+AnalysisSettings inWindowOf(const WindowTrial &trial, AnalysisSettings settings)
+{
+    settings.spectrogram.windowSeconds = trial.windowSeconds;
+    settings.model = withLaw(settings.model, trial.settings.model);
+    return settings;
+}
+
+AnalysisSettings inWindowOf(const Analysis &analysis, const AnalysisSettings &settings)
+{
+    const auto &choice = analysis.choice;
+    const bool isOther = choice && choice->chosen != choice->automatic && leavesWindowToRecording(settings);
+    return isOther ? inWindowOf(choice->trials[choice->chosen], settings) : settings;
+}
+
+std::shared_ptr<const Analysis> runInChosenWindow(const RecordingPointer &recording, const AnalysisSettings &settings,
+                                                  const AnalysisRequest &request, const RunContext &whole)
+{
+    const Analysis *previous = request.previous;
+    AnalysisRequest wanted = request;
+    wanted.statistic = {};
+    wanted.statisticBegins = {};
+    const RunContext context = whole.part(0.0, request.statistic ? 0.7 : 1.0);
+    const bool isChosen = previous && previous->recording == recording && previous->choice
+                          && !previous->calibration->isFirstEstimate
+                          && asksForTheSame(previous->choice->asked, settings);
+    const bool subtracts = settings.subtract.lines;
+    AnalysisSettings asked = settings; // subtraction does not affect the choice
+    asked.subtract.lines = false;
+    const double searched = isChosen ? 0.0 : subtracts ? 0.4 : 0.7; // shares of the progress
+    const double compared = 0.98;
+    const double detected = isChosen ? 0.6 : subtracts ? 0.8 : compared;
+    WindowChoice choice;
+    std::vector<std::shared_ptr<const Analysis>> others;
+    std::shared_ptr<Analysis> trial;
+    if (isChosen) {
+        choice = *previous->choice;
+        others = previous->others;
+    } else {
+        WindowSearch search(recording, asked, wanted.calibration, subtracts ? AnalysisDepth::Trial : wanted.depth,
+                            context.part(0.0, searched));
+        trial = search.run(previous, wanted.pictures);
+        others = search.others(*trial);
+        choice = search.choice(*trial);
+        wanted.previous = trial.get();
+    }
+    choice.asked = settings;
+    const std::shared_ptr<Analysis> found =
+        runOnRecording(recording, ofTrial(choice, choice.chosen, settings), wanted, context.part(searched, detected));
+    trial = {};
+    const auto count = double(others.size());
+    if (isChosen || subtracts) // after the pictures, which the user waits for; the search ran without subtraction
+        for (std::size_t i = 0; i < others.size(); ++i) {
+            const std::shared_ptr<const Analysis> tried = others[i];
+            const RunContext part = context.part(detected, compared).part(double(i) / count, double(i + 1) / count);
+            others[i] = runOnRecording(recording, ofTrial(choice, i < choice.chosen ? i : i + 1, settings),
+                                       trialRequest(wanted.calibration, tried.get()), part);
+        }
+    found->others = std::move(others);
+    askWindows(*found, choice, settings, wanted.calibration, context.part(compared, 1.0));
+    choice.fromOthers = std::count_if(found->tracks.begin(), found->tracks.end(),
+                                      [](const Track &track) { return track.windowSeconds > 0.0; });
+    found->choice = std::move(choice);
+    if (request.statistic) {
+        RunRequest again = trialRequest(request.calibration, found.get());
+        again.statistic = request.statistic;
+        again.statisticBegins = request.statisticBegins;
+        runOnRecording(recording, found->settings, again, whole.part(0.7, 1.0));
+    }
+    return found;
+}
 
 double energyKept(const TracksOnAxes &shorter, const TracksOnAxes &longer, double leastStatistic)
 {

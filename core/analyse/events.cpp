@@ -1,5 +1,6 @@
 #include "analyse/events.h"
 
+#include "analyse/constants.h"
 #include "base/Error.h"
 #include "base/logmath.h"
 
@@ -76,9 +77,8 @@ std::vector<AreaEvent> areaEvents(const Analysis &analysis)
     const Axis &time = analysis.time();
     const Axis &axis = analysis.grid().axes.back();
     std::vector<AreaEvent> result;
-    constexpr double leastDb = 1.0;
     for (const Area &area : analysis.areas)
-        if (const double levelDb = dbFromRatio(area.level); levelDb >= leastDb)
+        if (const double levelDb = dbFromRatio(area.level); levelDb >= leastAreaDb)
             result.push_back({time.value(double(area.firstFrame)), time.value(double(area.lastFrame)),
                               axis.value(double(area.firstCell)), axis.value(double(area.lastCell)), levelDb});
     return result;

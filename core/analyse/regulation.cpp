@@ -1,5 +1,6 @@
 #include "analyse/regulation.h"
 
+#include "analyse/constants.h"
 #include "base/Random.h"
 #include "calibrate/calibrate.h"
 
@@ -9,8 +10,6 @@ namespace faintline {
 
 NoiseBand regulationBand(const MarkovModel &model, const ResetRule &rule, const RunContext &context)
 {
-    constexpr int settlingFrames = 150;
-    constexpr int frames = 400;
     if (rule.law != ResetLaw::Mean && rule.law != ResetLaw::Half)
         return {};
     const MarkovModel piece = calibrationSubgrid(model);
@@ -19,12 +18,12 @@ NoiseBand regulationBand(const MarkovModel &model, const ResetRule &rule, const 
     std::vector<float> statistic(y.size());
     std::vector<double> lnK;
     Random random(2000, 0);
-    for (int frame = 0; frame < frames; ++frame) {
-        context.checkpoint(double(frame) / frames, "regulating K on noise");
+    for (int frame = 0; frame < regulationNoiseFrames; ++frame) {
+        context.checkpoint(double(frame) / regulationNoiseFrames, "regulating K on noise");
         for (float &value : y)
             value = float(random.exponential());
         detector.update(y, statistic);
-        if (frame >= settlingFrames)
+        if (frame >= regulationSettlingFrames)
             lnK.push_back(detector.regulation().lnK);
     }
     NoiseBand band = noiseBand(lnK);

@@ -1,6 +1,7 @@
 #include "analyse/runAnalysis.h"
 
 #include "analyse/ProgressPublisher.h"
+#include "analyse/constants.h"
 #include "analyse/preparePlan.h"
 #include "analyse/regulation.h"
 #include "base/memoryShares.h"
@@ -25,8 +26,6 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index checkpointMinimumFrames = 64; ///< of checkpoints, in frames
-
     /// Counts successive values, which often are alike, in turns, so that none waits for the one before.
     void countValues(std::span<const float> statistic, std::vector<double> &counts)
     {
@@ -44,7 +43,7 @@ namespace {
     {
         const auto most = Index(memoryShares::checkpoints / bytesOfStates(analysis));
         const Index frames = analysis.time().count;
-        return most > 0 ? std::max(checkpointMinimumFrames, (frames + most - 1) / most) : std::max<Index>(frames, 1);
+        return most > 0 ? std::max(fewestCheckpointFrames, (frames + most - 1) / most) : std::max<Index>(frames, 1);
     }
 
     /// Both pictures of a run, if they are wanted and do not exist yet.
@@ -331,22 +330,6 @@ namespace {
         return analyseAsItIs(recording, settings, context.part(0.4, 1.0), first.get(), request);
     }
 
-} // namespace
-
-std::shared_ptr<Analysis> runOnRecording(const RecordingPointer &recording, const AnalysisSettings &settings,
-                                         const RunRequest &request, const RunContext &context)
-{
-    checkSettings(settings);
-    checkWindow(settings);
-    std::shared_ptr<Analysis> analysis =
-        analyseWithRest(recording, settings, context, lender(request.previous, recording), request);
-    if (!request.isTrial)
-        finishTracks(*analysis);
-    return analysis;
-}
-
-namespace {
-
     std::shared_ptr<Analysis> analysisOf(NormalisedFramesPointer frames, const MarkovModel &model,
                                          const AnalysisSettings &settings)
     {
@@ -409,6 +392,18 @@ namespace {
     }
 
 } // namespace
+
+std::shared_ptr<Analysis> runOnRecording(const RecordingPointer &recording, const AnalysisSettings &settings,
+                                         const RunRequest &request, const RunContext &context)
+{
+    checkSettings(settings);
+    checkWindow(settings);
+    std::shared_ptr<Analysis> analysis =
+        analyseWithRest(recording, settings, context, lender(request.previous, recording), request);
+    if (!request.isTrial)
+        finishTracks(*analysis);
+    return analysis;
+}
 
 std::shared_ptr<const Analysis> runOnFrames(NormalisedFramesPointer frames, const AnalysisSettings &settings,
                                             const RunRequest &request, const RunContext &context)

@@ -3,6 +3,7 @@
 #include "base/RunContext.h"
 #include "calibrate/CalibrationDepth.h"
 #include "calibrate/CalibrationEffort.h"
+#include "calibrate/constants.h"
 #include "plan/AnalysisSettings.h"
 #include "plan/Calibration.h"
 
@@ -11,8 +12,6 @@
 #include <string>
 
 namespace faintline {
-
-inline constexpr int calibrationWindowSamples = 256; ///< of the simulated recording; noise is independent of it
 
 /// What a calibration is of. Two requests with the same key have the same calibration, and a key says all that is
 /// needed to make it: shipped ones are made again from their keys.

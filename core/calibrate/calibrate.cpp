@@ -2,6 +2,7 @@
 
 #include "calibrate/CalibrationRequest.h"
 #include "calibrate/calibrateOn.h"
+#include "calibrate/constants.h"
 #include "calibrate/keptCalibration.h"
 #include "frames/Spectrogram.h"
 #include "noise/CausalSpectrogram.h"
@@ -15,8 +16,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr int segmentWindows = 4096;
 
     /// A simulated recording with its samples in memory, unless there are too many: they are read several times.
     RecordingPointer simulated(const LineScene &scene)

@@ -1,5 +1,6 @@
 #include "calibrate/CalibrationRequest.h"
 #include "calibrate/calibrate.h"
+#include "calibrate/constants.h"
 #include "calibrate/followTail.h"
 #include "frames/Spectrogram.h"
 #include "signal/Fft.h"
@@ -71,13 +72,12 @@ namespace {
     }
 
     /// Width of the band that is simulated for a narrower or wider one: steps of √2 below the width from which on the
-    /// ends do not meet, so that one simulation serves many widths.
+    /// ends do not meet, so that one simulation serves many simulatedWidths.
     Index simulatedFor(Index bins, Index endsDoNotMeet)
     {
-        constexpr std::array<Index, 7> widths{8, 11, 16, 23, 32, 45, 64};
-        if (bins < widths.front() || bins >= endsDoNotMeet)
+        if (bins < simulatedWidths.front() || bins >= endsDoNotMeet)
             return std::min(bins, endsDoNotMeet);
-        return *(std::upper_bound(widths.begin(), widths.end(), bins) - 1);
+        return *(std::upper_bound(simulatedWidths.begin(), simulatedWidths.end(), bins) - 1);
     }
 
 } // namespace
@@ -99,8 +99,6 @@ std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &setting
     const bool isMoving = settings.model.motion == Motion::Slopes
                           && (settings.model.lowestSlope != 0.0 || settings.model.highestSlope != 0.0);
     const double steepest = std::max(std::abs(settings.model.lowestSlope), std::abs(settings.model.highestSlope));
-    // Less than a twentieth of the false alarms is lost at the ends, as many steps away as at one bin a frame.
-    constexpr Index wideFromBins = 256;
     const auto wideEnough = Index(double(wideFromBins) * std::clamp(steepest, 1.0, 4.0));
     // From here on the loss at the ends hardly depends on the width. Narrow bands are as measured with 64 bins.
     const bool isNarrow = bins < wideFromBins;

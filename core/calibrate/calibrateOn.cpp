@@ -1,6 +1,7 @@
 #include "calibrate/calibrateOn.h"
 
 #include "base/Error.h"
+#include "calibrate/constants.h"
 #include "calibrate/fitReset.h"
 #include "calibrate/followTail.h"
 #include "calibrate/noiseCounts.h"
@@ -31,20 +32,6 @@ namespace {
         Blocks    ///< followed, of a detector that decides at the ends of blocks
     };
 
-    constexpr std::size_t tailMinimumMaxima = 40;
-    /// Block maxima above the thresholds at which events are counted, per cell and frame; after clustering and
-    /// inhibition a quarter of them are events. A tail from splitting is counted where events crowd each other out, in
-    /// a tenth of the noise, and where they do not (800 and 400 events in the usual 8·10⁷ cells × frames). One that is
-    /// extrapolated along a line is counted at two thresholds far apart.
-    constexpr std::array<double, 2> ratesBeforeSplitting{1e-3, 2e-5};
-    /// At the end of a block of some hundred frames; a rate of 1e-3 a frame would be a tenth of all cells.
-    constexpr std::array<double, 2> ratesOfBlocks{1e-4, 2e-5};
-    constexpr std::array<double, 2> ratesOfLine{2e-5, 2.5e-6};
-    /// Expected number of maxima at 2·10⁻⁵, a third of which become events of lines; in small volumes the rates are
-    /// higher.
-    constexpr double tailMinimumExpected = 300.0;
-    constexpr double tailMinimumEvents = 20.0;
-
     /// Thresholds at which chains are expected to find events at about the wanted rates, from a rough analysis of the
     /// maxima of space-time blocks: P(max ≤ T) = exp(-Λ e^{-θ(T-u)}), with Λ and θ from two quantiles.
     std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFramesPerBlock, double cellFrames,
@@ -53,23 +40,22 @@ namespace {
         // A detector that decides in its own blocks leaves some of ours without a decision.
         const auto blocks = double(maxima.size());
         std::erase_if(maxima, [](float maximum) { return !std::isfinite(maximum); });
-        if (maxima.size() < tailMinimumMaxima)
+        if (maxima.size() < fewestTailMaxima)
             throw Error("detector", "decides too rarely to be calibrated on noise; choose a shorter window");
         std::sort(maxima.begin(), maxima.end());
         const double perMaximum = cellFramesPerBlock * blocks / double(maxima.size());
-        constexpr double lower = 0.5;
-        constexpr double upper = 0.95;
         const auto quantile = [&](double p) { return double(maxima[std::size_t(p * double(maxima.size()))]); };
-        const double theta =
-            std::log(std::log(lower) / std::log(upper)) / std::max(1e-6, quantile(upper) - quantile(lower));
+        const double theta = std::log(std::log(lowerMaximaQuantile) / std::log(upperMaximaQuantile))
+                             / std::max(1e-6, quantile(upperMaximaQuantile) - quantile(lowerMaximaQuantile));
         std::vector<double> thresholds;
         const bool isLine = shape == TailShape::Line;
-        const double expected = isLine ? tailMinimumExpected / 3.0 : tailMinimumExpected;
+        const double expected = isLine ? expectedTailMaxima / 3.0 : expectedTailMaxima;
         const double scale = std::max(1.0, expected / (ratesOfLine.front() * cellFrames));
         for (const double rate : isLine                       ? ratesOfLine
                                  : shape == TailShape::Blocks ? ratesOfBlocks
                                                               : ratesBeforeSplitting)
-            thresholds.push_back(quantile(upper) + std::log(-std::log(upper) / perMaximum / (rate * scale)) / theta);
+            thresholds.push_back(quantile(upperMaximaQuantile)
+                                 + std::log(-std::log(upperMaximaQuantile) / perMaximum / (rate * scale)) / theta);
         return thresholds;
     }
 
@@ -79,7 +65,7 @@ namespace {
                       Calibration &result)
     {
         const double total = std::accumulate(events.begin(), events.end(), 0.0);
-        if (total < tailMinimumEvents)
+        if (total < fewestTailEvents)
             throw Error("detector", "exceeds thresholds on noise too rarely to be calibrated");
         double anchor = 0.0; // where both parameters' errors are independent
         for (std::size_t i = 0; i < thresholds.size(); ++i)
@@ -122,7 +108,7 @@ namespace {
         std::vector<double> offsets;
         double events = 0.0;
         for (std::size_t i = 0; i < thresholds.size(); ++i) {
-            if (counts.events[i] < tailMinimumEvents)
+            if (counts.events[i] < fewestTailEvents)
                 continue;
             events = counts.events[i];
             levels.push_back(thresholds[i]);
@@ -158,9 +144,6 @@ namespace {
         result.tailSlope = (rates.lnRates[before] - rates.lnRates.back()) / (knots.back() - knots[before]);
         result.slopeError = rates.relativeErrors.back() / std::max(1.0, knots.back() - anchor);
     }
-
-    constexpr int regulationFrames = 1500;
-    constexpr int crowdedEverySegments = 10; ///< segments
 
     /// Number of segments for the first rough pass.
     int roughCountOf(int segmentCount)

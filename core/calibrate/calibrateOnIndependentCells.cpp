@@ -2,6 +2,7 @@
 #include "calibrate/CalibrationRequest.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/calibrateOn.h"
+#include "calibrate/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +11,6 @@ namespace faintline {
 
 MarkovModel calibrationSubgrid(const MarkovModel &model)
 {
-    constexpr Index cutFromCells = 20000;
-    constexpr Index simulatedCells = 5000;
     if (model.space.cellCount() <= cutFromCells)
         return model;
     std::vector<KinematicAxis> axes = model.space.axes();
@@ -35,9 +34,7 @@ std::shared_ptr<const Calibration> makeIndependentCalibration(const CalibrationR
     Grid grid;
     for (const KinematicAxis &axis : model.space.axes())
         grid.axes.push_back({axis.name, "", 0.0, 1.0, axis.cells, axis.cyclic});
-    // A sonar's hundred rates per cell add cost but little information, because their paths overlap.
-    constexpr double mostStates = 1.2e8; ///< per segment
-    const double longest = std::min(4e6 / double(grid.size()), mostStates / double(model.space.stateCount()));
+    const double longest = std::min(4e6 / double(grid.size()), segmentStates / double(model.space.stateCount()));
     const auto frames = Index(std::clamp(longest, 600.0, 4000.0));
     const auto segment = [&](int number) -> NormalisedFramesPointer {
         Random random(1000, std::uint64_t(number));
@@ -46,8 +43,8 @@ std::shared_ptr<const Calibration> makeIndependentCalibration(const CalibrationR
             value = float(random.exponential());
         return std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, frames, false}, grid, std::move(values));
     };
-    const double wanted =
-        std::min(request.cellFrames, 2.0 * mostStates / double(model.space.planeCount())) * effort.ofIndependentCells;
+    const double wanted = std::min(request.cellFrames, 2.0 * segmentStates / double(model.space.planeCount()))
+                          * effort.ofIndependentCells;
     const int segments = std::max(4, int(std::ceil(wanted / double(frames * grid.size()))));
     return calibrateOn({segment, segments}, model, request.settings, effort, context);
 }

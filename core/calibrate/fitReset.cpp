@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "base/Field.h"
+#include "calibrate/constants.h"
 #include "calibrate/noiseCounts.h"
 #include "plan/Calibration.h"
 
@@ -80,15 +81,12 @@ namespace {
         /// Encloses the answer closely, as a rule: around where regulation settles, then around the secant's root.
         void encloseClosely()
         {
-            constexpr double bracketHalfWidthNats = 0.01;
-            constexpr double toleranceNats = 4e-4;
             const double settled = measureReset(m_noise, m_model, {ResetLaw::Half, 0.0}).lnK;
-            if (std::isfinite(settled) && !isAbove(settled - bracketHalfWidthNats)
-                && isAbove(settled + bracketHalfWidthNats)) {
+            if (std::isfinite(settled) && !isAbove(settled - lnKBracketNats) && isAbove(settled + lnKBracketNats)) {
                 const double root =
                     m_below + (m_above - m_below) * (0.5 - m_fractionBelow) / (m_fractionAbove - m_fractionBelow);
-                isAbove(root - toleranceNats);
-                isAbove(root + toleranceNats);
+                isAbove(root - lnKSecantToleranceNats);
+                isAbove(root + lnKSecantToleranceNats);
             }
         }
 
@@ -104,17 +102,16 @@ namespace {
     /// ln K at which half of the states continue, by bisection.
     double lnKForHalf(const std::vector<NormalisedFramesPointer> &noise, const MarkovModel &model)
     {
-        constexpr double searchLimitNats = 20.0;
-        double low = -searchLimitNats;
-        double high = searchLimitNats;
+        double low = -lnKLimitNats;
+        double high = lnKLimitNats;
         HalfSearch search(noise, model);
         search.encloseClosely(); // most of the steps below are then known
-        while (high - low > 5e-4) {
+        while (high - low > lnKToleranceNats) {
             const double middle = 0.5 * (low + high);
             (search.isAbove(middle) ? high : low) = middle;
         }
-        const double end = low > -searchLimitNats ? searchLimitNats : -searchLimitNats;
-        const bool isInside = low > -searchLimitNats && high < searchLimitNats;
+        const double end = low > -lnKLimitNats ? lnKLimitNats : -lnKLimitNats;
+        const bool isInside = low > -lnKLimitNats && high < lnKLimitNats;
         const double percent = isInside ? 50.0 : 100.0 * search.fractionAt(end);
         if (isInside || std::isnan(percent)) // nothing can be measured on a few frames
             return 0.5 * (low + high);

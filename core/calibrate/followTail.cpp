@@ -1,6 +1,7 @@
 #include "calibrate/followTail.h"
 
 #include "base/Random.h"
+#include "calibrate/constants.h"
 #include "calibrate/measureRareRates.h"
 #include "detect/Smd.h"
 #include "frames/Spectrogram.h"
@@ -100,7 +101,6 @@ namespace {
 
 RareRates followTail(const AnalysisPlan &plan, const CalibrationEffort &effort, const RunContext &context)
 {
-    constexpr Index narrowCells = 64;
     const MarkovModel &model = plan.model;
     const AnalysisSettings &settings = plan.settings;
     if (model.space.axes().size() > 1 || !model.space.axes().front().transition.empty())
@@ -125,8 +125,7 @@ RareRates followTail(const AnalysisPlan &plan, const CalibrationEffort &effort, 
 RareRates followBand(const AnalysisSettings &bare, double lnK, Index bins, const SplittingSettings &splitting,
                      const RunContext &context)
 {
-    constexpr int bandMinimumSamples = 32;
-    int samples = bandMinimumSamples;
+    int samples = narrowestBandSamples;
     while (samples < bins) // at least twice as many bins, so that the ends do not meet
         samples *= 2;
     const auto makeNoise = [&] { return std::make_unique<BandNoise>(noiseOf(bare, samples), bins); };

@@ -2,6 +2,7 @@
 
 #include "base/Random.h"
 #include "base/parallel.h"
+#include "calibrate/constants.h"
 #include "calibrate/noiseCounts.h"
 #include "calibrate/noiseStreams.h"
 #include "detect/Detector.h"
@@ -57,21 +58,6 @@ private:
 
 namespace {
 
-    constexpr int streams = 16;          ///< streams in which the first level is searched for
-    constexpr int quantileFrames = 2000; ///< of each stream, for the base and the first level
-    constexpr double baseQuantile = 0.8;
-    constexpr double firstQuantile = 0.96;
-    constexpr double pilotFraction = 0.2;    ///< fraction that reaches the next level
-    constexpr int trialLimitFrames = 3000;   ///< frames; if K is so large that paths do not end, there are no rare
-                                             ///< excursions
-    constexpr int searchLimitFrames = 20000; ///< frames per stream until the first level is entered
-    constexpr int endlessLimitPilots = 4;    ///< of the pilot trials
-    constexpr int mostLevels = 60;
-    constexpr int levelMinimumSuccesses = 10;
-    constexpr int replicates = 4; ///< independent runs, whose scatter includes the effect of shared ancestors
-    constexpr double acceptedRelativeError = 0.5; ///< relative, of an accepted rate
-    constexpr double acceptedDepthShare = 0.7;    ///< fraction of leastLnRate that must be reached with this error
-
     double quantileOf(std::vector<double> values, double p)
     {
         const auto at = values.begin() + std::ptrdiff_t(p * double(values.size() - 1));
@@ -96,7 +82,7 @@ namespace {
             double lnRate = enterFirstLevel();
             double variance = 1.0 / double(m_entered.size());
             append(m_level, lnRate, variance);
-            for (int number = 1; number < mostLevels && lnRate > m_settings.leastLnRate; ++number) {
+            for (int number = 1; number < splittingLevelLimit && lnRate > m_settings.leastLnRate; ++number) {
                 m_context.checkpoint(std::min(1.0, lnRate / m_settings.leastLnRate),
                                      "simulating rare excursions of the noise");
                 const double next = nextLevel(number);
@@ -109,7 +95,7 @@ namespace {
                 for (const std::optional<NoiseParticle> &outcome : outcomes)
                     if (outcome)
                         entered.push_back(*outcome);
-                if (std::ssize(entered) < levelMinimumSuccesses)
+                if (std::ssize(entered) < fewestLevelSuccesses)
                     break;
                 const double p = double(entered.size()) / double(outcomes.size());
                 lnRate += std::log(p);
@@ -136,12 +122,12 @@ namespace {
 
         void findFirstLevel()
         {
-            std::vector<std::vector<double>> maxima(streams);
-            parallelFor(streams, m_context, "noise", [&] {
+            std::vector<std::vector<double>> maxima(quantileStreams);
+            parallelFor(quantileStreams, m_context, "noise", [&] {
                 return [&](Index stream) {
                     const auto walker = m_makeWalker(); // a detector at its first frame
                     Random random = randomOf(0, stream);
-                    for (int frame = 0; frame < settlingFrames + quantileFrames / streams; ++frame)
+                    for (int frame = 0; frame < settlingFrames + quantileFrames / quantileStreams; ++frame)
                         if (const double reached = walker->step(random);
                             frame >= settlingFrames && std::isfinite(reached))
                             maxima[std::size_t(stream)].push_back(reached);
@@ -159,10 +145,10 @@ namespace {
         /// Computes ln of the rate of cycles and stores the particles that enter the first level.
         double enterFirstLevel()
         {
-            const int wanted = (m_settings.entries + streams - 1) / streams;
-            std::vector<std::vector<NoiseParticle>> entered(streams);
-            std::vector<double> frames(streams);
-            parallelFor(streams, m_context, "noise", [&] {
+            const int wanted = (m_settings.entries + quantileStreams - 1) / quantileStreams;
+            std::vector<std::vector<NoiseParticle>> entered(quantileStreams);
+            std::vector<double> frames(quantileStreams);
+            parallelFor(quantileStreams, m_context, "noise", [&] {
                 return [&](Index stream) {
                     const auto walker = m_makeWalker();
                     Random random = randomOf(1000, stream);
@@ -283,45 +269,6 @@ namespace {
         }
         return result;
     }
-
-} // namespace
-
-RareRates measureRareRates(const std::function<std::unique_ptr<Detector>()> &makeDetector,
-                           const std::function<std::unique_ptr<NoiseStream>()> &makeNoise,
-                           const SplittingSettings &settings, const RunContext &context)
-{
-    constexpr std::size_t mostBytes = std::size_t(64) << 20; // of all initial states of a level
-    const auto state = makeDetector()->state();
-    if (!state || state->bytes() * std::size_t(settings.entries) > mostBytes)
-        return {};
-    std::vector<RareRates> runs;
-    for (int run = 0; run < replicates; ++run) {
-        SplittingSettings own = settings;
-        own.entries = std::max(1, settings.entries / replicates);
-        own.seed = settings.seed + std::uint64_t(run) * 10000;
-        runs.push_back(Splitting(makeDetector, makeNoise, own,
-                                 context.part(double(run) / replicates, double(run + 1) / replicates))
-                           .run());
-        if (runs.back().isEmpty())
-            return {};
-    }
-    RareRates result = combined(runs);
-    if (result.isEmpty() || result.lnRates.back() > acceptedDepthShare * settings.leastLnRate)
-        return {};
-    return result;
-}
-
-namespace {
-
-    constexpr Index repetitions = 6; ///< independent ones, whose scatter gives the errors
-    constexpr Index mostBlocks = 250;
-    constexpr Index fewestBlocks = 40;
-    constexpr double framesOfTilt = 120000.0; ///< simulated for one tilt, all repetitions together
-    constexpr std::size_t mostTilts = 30;
-    constexpr double levelSpacingDeviations = 0.25; ///< between levels, in deviations of V
-    constexpr double firstLevelDeviations = 1.0;    ///< deviations above the mean of V
-    constexpr double blockRateError = 0.5;          ///< relative, of an accepted rate
-    constexpr double blockDepthShare = 0.7;         ///< fraction of leastLnRate that must be reached with this error
 
     /// V and weight of the blocks of one run at their end.
     struct TiltedBlocks {
@@ -489,7 +436,7 @@ namespace {
         if (!(mean > 0.0 && mean < 1.0))
             return mean >= 1.0; // such a level is not rare
         const double error = std::sqrt(std::max(0.0, square / (mean * mean) - 1.0) / (count - 1.0));
-        if (error > blockRateError)
+        if (error > acceptedRelativeError)
             return false;
         result.levels.push_back(level);
         result.lnRates.push_back(std::log(-std::log1p(-mean) / cellFrames));
@@ -501,6 +448,31 @@ namespace {
 
 } // namespace
 
+RareRates measureRareRates(const std::function<std::unique_ptr<Detector>()> &makeDetector,
+                           const std::function<std::unique_ptr<NoiseStream>()> &makeNoise,
+                           const SplittingSettings &settings, const RunContext &context)
+{
+    constexpr std::size_t mostBytes = std::size_t(64) << 20; // of all initial states of a level
+    const auto state = makeDetector()->state();
+    if (!state || state->bytes() * std::size_t(settings.entries) > mostBytes)
+        return {};
+    std::vector<RareRates> runs;
+    for (int run = 0; run < splittingReplicates; ++run) {
+        SplittingSettings own = settings;
+        own.entries = std::max(1, settings.entries / splittingReplicates);
+        own.seed = settings.seed + std::uint64_t(run) * 10000;
+        runs.push_back(Splitting(makeDetector, makeNoise, own,
+                                 context.part(double(run) / splittingReplicates, double(run + 1) / splittingReplicates))
+                           .run());
+        if (runs.back().isEmpty())
+            return {};
+    }
+    RareRates result = combined(runs);
+    if (result.isEmpty() || result.lnRates.back() > acceptedDepthShare * settings.leastLnRate)
+        return {};
+    return result;
+}
+
 RareRates measureBlockRates(const std::function<std::unique_ptr<Detector>()> &makeDetector,
                             const std::function<std::unique_ptr<NoiseStream>()> &makeNoise, Index framesPerBlock,
                             const SplittingSettings &settings, const RunContext &context)
@@ -508,20 +480,20 @@ RareRates measureBlockRates(const std::function<std::unique_ptr<Detector>()> &ma
     constexpr std::size_t mostBytes = std::size_t(64) << 20;
     const auto makeWalker = [&] { return std::make_unique<NoiseWalker>(makeDetector(), makeNoise()); };
     const auto state = makeDetector()->state();
-    const Index blocks = std::min(mostBlocks, Index(framesOfTilt / double(repetitions * framesPerBlock)));
-    if (!state || state->bytes() * std::size_t(blocks * repetitions) > mostBytes || blocks < fewestBlocks)
+    const Index blocks = std::min(tiltBlockLimit, Index(framesOfTilt / double(tiltRepetitions * framesPerBlock)));
+    if (!state || state->bytes() * std::size_t(blocks * tiltRepetitions) > mostBytes || blocks < fewestTiltBlocks)
         return {};
     const double cellFrames = double(makeNoise()->cells()) * double(framesPerBlock);
 
-    std::vector<Tail> tails{std::size_t(repetitions)};
+    std::vector<Tail> tails{std::size_t(tiltRepetitions)};
     double tilt = 0.0;
     double from = 0.0;
     double spacing = 1.0;
     double highest = -std::numeric_limits<double>::infinity();
-    for (std::size_t number = 0; number < mostTilts; ++number) {
-        context.checkpoint(double(number) / double(mostTilts), "simulating rare blocks of the noise");
-        std::vector<TiltedBlocks> runs{std::size_t(repetitions)};
-        parallelFor(repetitions, context, "noise", [&] {
+    for (std::size_t number = 0; number < tiltLimit; ++number) {
+        context.checkpoint(double(number) / double(tiltLimit), "simulating rare blocks of the noise");
+        std::vector<TiltedBlocks> runs{std::size_t(tiltRepetitions)};
+        parallelFor(tiltRepetitions, context, "noise", [&] {
             return [&](Index repetition) {
                 const Random random(settings.seed + number, std::uint64_t(repetition));
                 runs[std::size_t(repetition)] = BlockRun(makeWalker, blocks, tilt, random).run(framesPerBlock);
@@ -539,7 +511,7 @@ RareRates measureBlockRates(const std::function<std::unique_ptr<Detector>()> &ma
         }
         double rate = 0.0;
         for (const Tail &tail : tails)
-            rate += tail.exceedance(mean) / (cellFrames * double(repetitions));
+            rate += tail.exceedance(mean) / (cellFrames * double(tiltRepetitions));
         if (rate < std::exp(settings.leastLnRate))
             break;
         tilt += 1.0 / deviation;
@@ -547,7 +519,7 @@ RareRates measureBlockRates(const std::function<std::unique_ptr<Detector>()> &ma
     RareRates result;
     for (double level = from; level <= highest && append(tails, level, cellFrames, result);)
         level += spacing;
-    if (result.isEmpty() || result.lnRates.back() > blockDepthShare * settings.leastLnRate)
+    if (result.isEmpty() || result.lnRates.back() > acceptedDepthShare * settings.leastLnRate)
         return {};
     return result;
 }

@@ -9,7 +9,6 @@ namespace faintline {
 
 namespace {
 
-    constexpr double levelsInView = 300.0; ///< number of levels below the largest statistic of the first frames
     constexpr Index framesAtOnce = 64;
 
     double countedCellFrames(const NormalisedFrames &noise)

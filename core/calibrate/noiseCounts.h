@@ -1,5 +1,6 @@
 #pragma once
 
+#include "calibrate/constants.h"
 #include "frames/NormalisedFrames.h"
 #include "track/DetectionChain.h"
 
@@ -10,11 +11,6 @@
 namespace faintline {
 
 // Additive counts of detectors and chains on noise, segment by segment.
-
-inline constexpr int settlingFrames = 300;     ///< at the start of a segment, which do not count
-inline constexpr Index noiseBlockFrames = 128; ///< size of the blocks whose maxima are kept, in frames …
-inline constexpr Index noiseBlockCells = 64;   ///< … and in cells
-inline constexpr std::size_t levelCount = 2000;
 
 /// Levels at which the exceedance of a statistic is counted.
 struct StatisticLevels {

@@ -1,6 +1,7 @@
 #include "plan/Calibration.h"
 
 #include "noise/stopBands.h"
+#include "plan/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,19 +39,17 @@ double Calibration::rateUncertaintyAt(double nats) const
 double Calibration::thresholdUncertainty(double eventsPerCellFrame) const
 {
     const double threshold = thresholdForEventRate(eventsPerCellFrame);
-    constexpr double slopeHalfWidthNats = 0.5;
     const double slope =
-        std::log(eventRateAt(threshold - slopeHalfWidthNats) / eventRateAt(threshold + slopeHalfWidthNats))
-        / (2.0 * slopeHalfWidthNats);
+        std::log(eventRateAt(threshold - tailSlopeHalfWidthNats) / eventRateAt(threshold + tailSlopeHalfWidthNats))
+        / (2.0 * tailSlopeHalfWidthNats);
     return std::log(rateUncertaintyAt(threshold)) / slope;
 }
 
 double Calibration::exceedanceAt(double nats) const
 {
-    // Simulated down to levels exceeded by more than a thousand cells, extrapolated with the tail's slope beyond.
+    // Simulated down to there, extrapolated with the tail's slope beyond.
     std::size_t last = levelCount() - 1;
-    const double least = 1e-4;
-    while (last > 0 && exceedance(last) < least)
+    while (last > 0 && exceedance(last) < simulatedExceedance)
         --last;
     if (nats <= level(0))
         return exceedance(0);

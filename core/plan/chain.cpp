@@ -3,6 +3,7 @@
 #include "base/logmath.h"
 #include "detect/GuidedDetector.h"
 #include "detect/ModelBank.h"
+#include "plan/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,14 +11,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr double shoulderNats = 8.0;
-    constexpr double shoulderNoiseProbability = 1e-3; ///< fraction of the cells of a frame that decides
-    constexpr Index tracedBrieflyFromStates =
-        1'000'000; ///< from this number on, tracing a path back over tens of frames takes
-                   ///< seconds
-    constexpr Index onsetFramesOfMany = 16;
-    constexpr Index liveRunUpFrames = 512;
 
     /// The values in whole cells; the last one is used for all remaining axes.
     std::vector<Index> perAxis(const std::vector<double> &values, const Grid &grid)
@@ -32,17 +25,16 @@ namespace {
     /// lobes.
     std::function<Index(double)> leakageExtentOf(const FrameGeometry &geometry, Index cells)
     {
-        constexpr int largestDb = 140;
         std::vector<Index> bins;
         Index reach = 0;
-        for (int db = 0; db <= largestDb; ++db) {
+        for (int db = 0; db <= leakageLimitDb; ++db) {
             while (ratioFromDb(db) * leakageBound(geometry.window, double(reach) / geometry.binsPerCell) > 0.5
                    && reach < cells)
                 ++reach;
             bins.push_back(reach);
         }
         return [bins](double y) {
-            return bins[std::size_t(std::clamp(std::ceil(dbFromRatio(std::max(y, 1.0))), 0.0, double(largestDb)))];
+            return bins[std::size_t(std::clamp(std::ceil(dbFromRatio(std::max(y, 1.0))), 0.0, double(leakageLimitDb)))];
         };
     }
 
@@ -112,6 +104,17 @@ namespace {
         return chain;
     }
 
+    /// For the settings of the sequential Markov detector.
+    std::unique_ptr<PathDetector> makeSmd(const AnalysisPlan &plan, const SmdSettings &smd)
+    {
+        if (!plan.isBank())
+            return std::make_unique<Smd>(plan.model, resetRule(smd, plan.calibration->lnK));
+        std::vector<ModelBank::Member> members;
+        for (const BankMember &member : plan.bank)
+            members.push_back({member.model, resetRule(smd, member.calibration->lnK), member.offset});
+        return std::make_unique<ModelBank>(members);
+    }
+
 } // namespace
 
 Index stateCount(const AnalysisPlan &plan)
@@ -126,21 +129,6 @@ std::size_t bytesOfStates(const AnalysisPlan &plan)
 {
     return sizeof(float) * std::size_t(stateCount(plan));
 }
-
-namespace {
-
-    /// For the settings of the sequential Markov detector.
-    std::unique_ptr<PathDetector> makeSmd(const AnalysisPlan &plan, const SmdSettings &smd)
-    {
-        if (!plan.isBank())
-            return std::make_unique<Smd>(plan.model, resetRule(smd, plan.calibration->lnK));
-        std::vector<ModelBank::Member> members;
-        for (const BankMember &member : plan.bank)
-            members.push_back({member.model, resetRule(smd, member.calibration->lnK), member.offset});
-        return std::make_unique<ModelBank>(members);
-    }
-
-} // namespace
 
 std::unique_ptr<Detector> makeDetector(const AnalysisPlan &plan)
 {

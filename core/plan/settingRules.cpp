@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "plan/AnalysisSettings.h"
+#include "plan/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +10,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr double slopeLimitBinsPerFrame = 100.0; // bins per frame
-    constexpr int slopeCountLimit = 1001;
 
     void checkLaw(const std::string &name, const std::vector<double> &law, int rateCount)
     {

@@ -1,5 +1,7 @@
 #include "plan/slopeUnit.h"
 
+#include "plan/constants.h"
+
 #include <cmath>
 
 namespace faintline {
@@ -28,15 +30,14 @@ ModelSettings withSlopesIn(SlopeUnit unit, ModelSettings model, double hzPerSeco
 {
     if (model.slopeUnit == unit)
         return model;
-    constexpr double isOnTheSet = 0.01; // four digits of Hz/s convert back to the original slope
     model.slopeUnit = unit;
     if (unit == SlopeUnit::HzPerSecond) {
         model.lowestSlope = fourDigits(model.lowestSlope * hzPerSecond);
         model.highestSlope = fourDigits(model.highestSlope * hzPerSecond);
     } else {
         const double steps = model.slopesPerBin / hzPerSecond;
-        model.lowestSlope = (std::floor(model.lowestSlope * steps + isOnTheSet) + 0.0) / model.slopesPerBin;
-        model.highestSlope = (std::ceil(model.highestSlope * steps - isOnTheSet) + 0.0) / model.slopesPerBin;
+        model.lowestSlope = (std::floor(model.lowestSlope * steps + slopeToleranceSteps) + 0.0) / model.slopesPerBin;
+        model.highestSlope = (std::ceil(model.highestSlope * steps - slopeToleranceSteps) + 0.0) / model.slopesPerBin;
     }
     return model;
 }
