@@ -125,6 +125,23 @@ namespace {
                 megahertz * std::max(numbers[6], numbers[7])};
     }
 
+    /// The strongest hit of `other` that is the same signal as one of `first`; null where there is none.
+    const TopHit *sameSignal(const TopHit &hit, const TopHits &first, const TopHits &other, double slackHz)
+    {
+        const double seconds = *other.startUnixSeconds - *first.startUnixSeconds;
+        const double expected = hit.startHz + hit.driftHzPerSecond * seconds;
+        const double step = std::max(first.driftStep(), other.driftStep());
+        const double reach =
+            slackHz + 2.0 * std::max(first.channelHz, other.channelHz) + 0.5 * step * std::abs(seconds);
+        const TopHit *best = nullptr;
+        for (const TopHit &each : other.hits)
+            if (std::abs(each.startHz - expected) <= reach
+                && std::abs(each.driftHzPerSecond - hit.driftHzPerSecond) <= 2.0 * step
+                && (!best || each.snr > best->snr))
+                best = &each;
+        return best;
+    }
+
 } // namespace
 
 double gaussianDeviate(double y)
@@ -220,27 +237,6 @@ TopHits readTopHits(const std::string &path)
                     "is not a table of hits: its comments must give DELTAT, DELTAF(Hz) and obs_length, each above 0");
     return table;
 }
-
-namespace {
-
-    /// The strongest hit of `other` that is the same signal as one of `first`; null where there is none.
-    const TopHit *sameSignal(const TopHit &hit, const TopHits &first, const TopHits &other, double slackHz)
-    {
-        const double seconds = *other.startUnixSeconds - *first.startUnixSeconds;
-        const double expected = hit.startHz + hit.driftHzPerSecond * seconds;
-        const double step = std::max(first.driftStep(), other.driftStep());
-        const double reach =
-            slackHz + 2.0 * std::max(first.channelHz, other.channelHz) + 0.5 * step * std::abs(seconds);
-        const TopHit *best = nullptr;
-        for (const TopHit &each : other.hits)
-            if (std::abs(each.startHz - expected) <= reach
-                && std::abs(each.driftHzPerSecond - hit.driftHzPerSecond) <= 2.0 * step
-                && (!best || each.snr > best->snr))
-                best = &each;
-        return best;
-    }
-
-} // namespace
 
 std::vector<CadenceEvent> findCadence(const std::vector<TopHits> &observations, double slackHz,
                                       const RunContext &context)

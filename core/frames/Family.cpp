@@ -24,6 +24,62 @@ namespace {
         return least;
     }
 
+    /// powerOfSum with one table lookup for adjacent cells with the same number of members.
+    class PowerOfSum
+    {
+    public:
+        float operator()(float sum, std::size_t members)
+        {
+            if (members != m_members)
+                m_law = &lawOfSum(m_members = members);
+            return (*m_law)(sum / float(members));
+        }
+
+    private:
+        std::size_t m_members = 0;
+        const LooksLaw *m_law = nullptr;
+    };
+
+    /// Accumulated values of every cell, and how many were observed.
+    struct Gathered {
+        std::span<float> values;
+        std::vector<std::uint16_t> counts;
+
+        explicit Gathered(std::span<float> out) : values(out), counts(out.size(), 0)
+        {
+            std::fill(out.begin(), out.end(), 0.0f);
+        }
+
+        template <class Combine>
+        void add(std::size_t cell, float value, Combine combine)
+        {
+            if (std::isnan(value))
+                return;
+            values[cell] = combine(values[cell], value);
+            ++counts[cell];
+        }
+
+        template <class Combine>
+        void add(std::span<const float> y, std::span<const std::int32_t> places, Combine combine)
+        {
+            for (; !places.empty(); places = places.subspan(values.size()))
+                for (std::size_t cell = 0; cell < values.size(); ++cell)
+                    if (places[cell] >= 0)
+                        add(cell, y[std::size_t(places[cell])], combine);
+        }
+
+        /// Transforms each accumulated value to the law of a single cell.
+        template <class Law>
+        void finish(Law law)
+        {
+            for (std::size_t cell = 0; cell < values.size(); ++cell)
+                if (counts[cell] == 0)
+                    values[cell] = std::numeric_limits<float>::quiet_NaN();
+                else if (counts[cell] > 1)
+                    values[cell] = law(values[cell], std::size_t(counts[cell]));
+        }
+    };
+
 } // namespace
 
 const std::vector<Field<FamilySettings>> &FamilySettings::fields()
@@ -181,66 +237,6 @@ FamilyMap FamilyMap::onRing(const FamilySettings &settings, Index bins, double b
     }
     return map;
 }
-
-namespace {
-
-    /// powerOfSum with one table lookup for adjacent cells with the same number of members.
-    class PowerOfSum
-    {
-    public:
-        float operator()(float sum, std::size_t members)
-        {
-            if (members != m_members)
-                m_law = &lawOfSum(m_members = members);
-            return (*m_law)(sum / float(members));
-        }
-
-    private:
-        std::size_t m_members = 0;
-        const LooksLaw *m_law = nullptr;
-    };
-
-    /// Accumulated values of every cell, and how many were observed.
-    struct Gathered {
-        std::span<float> values;
-        std::vector<std::uint16_t> counts;
-
-        explicit Gathered(std::span<float> out) : values(out), counts(out.size(), 0)
-        {
-            std::fill(out.begin(), out.end(), 0.0f);
-        }
-
-        template <class Combine>
-        void add(std::size_t cell, float value, Combine combine)
-        {
-            if (std::isnan(value))
-                return;
-            values[cell] = combine(values[cell], value);
-            ++counts[cell];
-        }
-
-        template <class Combine>
-        void add(std::span<const float> y, std::span<const std::int32_t> places, Combine combine)
-        {
-            for (; !places.empty(); places = places.subspan(values.size()))
-                for (std::size_t cell = 0; cell < values.size(); ++cell)
-                    if (places[cell] >= 0)
-                        add(cell, y[std::size_t(places[cell])], combine);
-        }
-
-        /// Transforms each accumulated value to the law of a single cell.
-        template <class Law>
-        void finish(Law law)
-        {
-            for (std::size_t cell = 0; cell < values.size(); ++cell)
-                if (counts[cell] == 0)
-                    values[cell] = std::numeric_limits<float>::quiet_NaN();
-                else if (counts[cell] > 1)
-                    values[cell] = law(values[cell], std::size_t(counts[cell]));
-        }
-    };
-
-} // namespace
 
 void FamilyMap::apply(std::span<const float> y, std::span<float> out) const
 {

@@ -182,6 +182,14 @@ namespace {
         return box;
     }
 
+    constexpr int numberLimit = 1'000'000'000; ///< in a file: others are counted on from it
+
+    struct NumberedPair {
+        double distance = 0.0;
+        std::size_t track = 0;
+        std::size_t known = 0;
+    };
+
 } // namespace
 
 std::string nameOf(Verdict verdict)
@@ -449,18 +457,6 @@ Annotations annotationsFromJson(const Json &json, const std::string &where)
             boxFromJson(box, where + ".boxes[" + std::to_string(annotations.boxes.size()) + "]"));
     return annotations;
 }
-
-namespace {
-
-    constexpr int numberLimit = 1'000'000'000; ///< in a file: others are counted on from it
-
-    struct NumberedPair {
-        double distance = 0.0;
-        std::size_t track = 0;
-        std::size_t known = 0;
-    };
-
-} // namespace
 
 std::shared_ptr<const Analysis> SignalNumbers::number(std::shared_ptr<const Analysis> analysis)
 {

@@ -33,54 +33,6 @@ namespace {
         return stretch;
     }
 
-} // namespace
-
-Straightening straighteningOf(std::string_view name)
-{
-    const auto found = std::find(straighteningNames.begin(), straighteningNames.end(), name);
-    if (found == straighteningNames.end())
-        throw Error("method = " + std::string(name), "must be shift or resample");
-    return Straightening(found - straighteningNames.begin());
-}
-
-Straightening usualStraightening(const AnalysisPlan &plan)
-{
-    return plan.settings.family.relation == FamilySettings::Relation::Harmonics ? Straightening::Resample
-                                                                                : Straightening::Shift;
-}
-
-Straightened straightened(const Analysis &analysis, const Event &event, const StraightenChoice &choice)
-{
-    if (!analysis.recording)
-        throw Error("straightening", "requires a recording; these are ready-made frames");
-    const FamilySettings &family = analysis.settings.family;
-    const int channel = analysis.settings.selection.channel;
-    const FrequencyCurve curve =
-        smoothFrequency(analysis, *trackOfId(analysis.tracks, event.id), choice.smoothingSeconds);
-    const double target = choice.targetHz.value_or(curve.meanHz());
-    const Straightening kind = choice.kind.value_or(usualStraightening(analysis));
-    const bool isResampled = kind == Straightening::Resample;
-    const double multiple =
-        isResampled && family.relation == FamilySettings::Relation::Harmonics ? family.members.front() : 1.0;
-    const TimeBand before = stretchOf(analysis, event, curve, multiple);
-    TimeBand after = before;
-    after.channel = 0;
-    after.hz = multiple * target;
-    if (!isResampled)
-        return {std::make_shared<StraightenedRecording>(analysis.recording, channel, curve, target),
-                curve,
-                target,
-                kind,
-                before,
-                after};
-    const auto made = std::make_shared<ResampledRecording>(analysis.recording, channel, curve, target);
-    after.fromSeconds = made->secondsOf(before.fromSeconds);
-    after.toSeconds = made->secondsOf(before.toSeconds);
-    return {made, curve, target, kind, before, after};
-}
-
-namespace {
-
     constexpr double oversampling = 4.0; ///< of the band, so that the averaging filter's response is flat over it
     constexpr Index averageMinimumSamples = 16;
     constexpr Index pathFrames = Index(1) << 22;
@@ -211,6 +163,50 @@ namespace {
     }
 
 } // namespace
+
+Straightening straighteningOf(std::string_view name)
+{
+    const auto found = std::find(straighteningNames.begin(), straighteningNames.end(), name);
+    if (found == straighteningNames.end())
+        throw Error("method = " + std::string(name), "must be shift or resample");
+    return Straightening(found - straighteningNames.begin());
+}
+
+Straightening usualStraightening(const AnalysisPlan &plan)
+{
+    return plan.settings.family.relation == FamilySettings::Relation::Harmonics ? Straightening::Resample
+                                                                                : Straightening::Shift;
+}
+
+Straightened straightened(const Analysis &analysis, const Event &event, const StraightenChoice &choice)
+{
+    if (!analysis.recording)
+        throw Error("straightening", "requires a recording; these are ready-made frames");
+    const FamilySettings &family = analysis.settings.family;
+    const int channel = analysis.settings.selection.channel;
+    const FrequencyCurve curve =
+        smoothFrequency(analysis, *trackOfId(analysis.tracks, event.id), choice.smoothingSeconds);
+    const double target = choice.targetHz.value_or(curve.meanHz());
+    const Straightening kind = choice.kind.value_or(usualStraightening(analysis));
+    const bool isResampled = kind == Straightening::Resample;
+    const double multiple =
+        isResampled && family.relation == FamilySettings::Relation::Harmonics ? family.members.front() : 1.0;
+    const TimeBand before = stretchOf(analysis, event, curve, multiple);
+    TimeBand after = before;
+    after.channel = 0;
+    after.hz = multiple * target;
+    if (!isResampled)
+        return {std::make_shared<StraightenedRecording>(analysis.recording, channel, curve, target),
+                curve,
+                target,
+                kind,
+                before,
+                after};
+    const auto made = std::make_shared<ResampledRecording>(analysis.recording, channel, curve, target);
+    after.fromSeconds = made->secondsOf(before.fromSeconds);
+    after.toSeconds = made->secondsOf(before.toSeconds);
+    return {made, curve, target, kind, before, after};
+}
 
 LineSpectrum lineSpectrum(const Recording &recording, const TimeBand &stretch, const RunContext &context)
 {

@@ -20,6 +20,9 @@ namespace {
         return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
     }
 
+    constexpr double intervalSeconds = 10.0;
+    constexpr double leastSeconds = 0.1; ///< smallest departure reported
+
 } // namespace
 
 Hearing::Hearing(SampleSource &source, StreamBuffer &buffer, const ListenSettings &settings, std::stop_token stop,
@@ -176,13 +179,6 @@ void Hearing::watchDisk()
     tell(ListenNotice::Kind::DiskSpace, Index(left * m_buffer.format().sampleRateHz),
          "The disk takes no more than " + formatNumber(std::round(left)) + " s of what is heard.");
 }
-
-namespace {
-
-    constexpr double intervalSeconds = 10.0;
-    constexpr double leastSeconds = 0.1; ///< smallest departure reported
-
-} // namespace
 
 void SourceClock::restart()
 {

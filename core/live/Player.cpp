@@ -26,6 +26,27 @@ namespace {
         return format;
     }
 
+    constexpr double crossings = 16.0; ///< zero crossings of the kernel on each side
+    constexpr Index kernelSteps = 512; ///< points per crossing
+    constexpr double transition = 0.95;
+    constexpr double meanLevel = 0.1;
+    constexpr double besideHz = 300.0;
+    constexpr double levelSeconds = 10.0; ///< preceding time that sets the level of a recording in progress
+    constexpr double farBehindSeconds = 2.0;
+    constexpr double behindSeconds = 0.5;
+
+    /// Right half of a Hann-windowed sinc.
+    std::vector<float> halfKernel()
+    {
+        std::vector<float> kernel(std::size_t(crossings * double(kernelSteps)) + 2, 0.0f);
+        for (std::size_t i = 0; i + 2 < kernel.size(); ++i) {
+            const double u = std::numbers::pi * double(i) / double(kernelSteps);
+            const double window = 0.5 + 0.5 * std::cos(u / crossings);
+            kernel[i] = float(i == 0 ? 1.0 : std::sin(u) / u * window);
+        }
+        return kernel;
+    }
+
 } // namespace
 
 Player::Player(RecordingPointer recording, int channel, const PlaySettings &settings, const std::string &device,
@@ -107,31 +128,6 @@ std::optional<std::string> Player::failure() const
     }
     return m_stream.failure();
 }
-
-namespace {
-
-    constexpr double crossings = 16.0; ///< zero crossings of the kernel on each side
-    constexpr Index kernelSteps = 512; ///< points per crossing
-    constexpr double transition = 0.95;
-    constexpr double meanLevel = 0.1;
-    constexpr double besideHz = 300.0;
-    constexpr double levelSeconds = 10.0; ///< preceding time that sets the level of a recording in progress
-    constexpr double farBehindSeconds = 2.0;
-    constexpr double behindSeconds = 0.5;
-
-    /// Right half of a Hann-windowed sinc.
-    std::vector<float> halfKernel()
-    {
-        std::vector<float> kernel(std::size_t(crossings * double(kernelSteps)) + 2, 0.0f);
-        for (std::size_t i = 0; i + 2 < kernel.size(); ++i) {
-            const double u = std::numbers::pi * double(i) / double(kernelSteps);
-            const double window = 0.5 + 0.5 * std::cos(u / crossings);
-            kernel[i] = float(i == 0 ? 1.0 : std::sin(u) / u * window);
-        }
-        return kernel;
-    }
-
-} // namespace
 
 PlayedSound::PlayedSound(RecordingPointer recording, int channel, const PlaySettings &settings, double deviceRateHz)
     : m_recording(std::move(recording)), m_channel(channel), m_settings(settings), m_deviceRate(deviceRateHz),

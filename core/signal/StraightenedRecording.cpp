@@ -36,6 +36,61 @@ namespace {
                                                                                   + formatNumber(highest) + " Hz");
     }
 
+    constexpr double largestStretch = 8.0;
+    constexpr double passedBandShare = 0.94; ///< fraction of half the rate
+    constexpr Index blockSamples = 8192;
+
+    /// One side of a Kaiser-windowed sinc, interpolated linearly.
+    class Kernel
+    {
+    public:
+        static constexpr double crossings = 48.0; ///< on either side
+
+        Kernel()
+        {
+            constexpr double beta = 9.0;
+            for (std::size_t i = 0; i < m_values.size(); ++i) {
+                const double x = double(i) / pointsPerCrossing;
+                const double angle = std::numbers::pi * x;
+                const double root = std::sqrt(std::max(0.0, 1.0 - x * x / (crossings * crossings)));
+                m_values[i] = (i == 0 ? 1.0 : std::sin(angle) / angle) * std::cyl_bessel_i(0.0, beta * root)
+                              / std::cyl_bessel_i(0.0, beta);
+            }
+            m_values.back() = 0.0;
+        }
+
+        /// |x| ≤ crossings
+        double operator()(double x) const
+        {
+            const double place = std::abs(x) * pointsPerCrossing;
+            const auto lower = std::min(std::size_t(place), m_values.size() - 2);
+            return m_values[lower] + (place - double(lower)) * (m_values[lower + 1] - m_values[lower]);
+        }
+
+    private:
+        static constexpr double pointsPerCrossing = 512.0;
+        std::array<double, std::size_t(crossings *pointsPerCrossing) + 1> m_values;
+    };
+
+    const Kernel &kernel()
+    {
+        static const Kernel made;
+        return made;
+    }
+
+    void check(const FrequencyCurve &curve, double toHz)
+    {
+        const auto [least, most] = std::minmax_element(curve.hz().begin(), curve.hz().end());
+        if (!(*least > 0.0))
+            throw Error("resampling along " + formatNumber(*least) + " … " + formatNumber(*most) + " Hz",
+                        "needs a fundamental above 0 Hz; shift the recording instead");
+        if (!(toHz >= *most / largestStretch && toHz <= *least * largestStretch))
+            throw Error("resampled line at " + formatNumber(toHz) + " Hz",
+                        "must lie in " + formatNumber(*most / largestStretch) + " … "
+                            + formatNumber(*least * largestStretch)
+                            + " Hz, so that time is stretched by a factor of 8 at most");
+    }
+
 } // namespace
 
 StraightenedRecording::StraightenedRecording(RecordingPointer base, int channel, const FrequencyCurve &curve,
@@ -106,65 +161,6 @@ void StraightenedRecording::addBlock(Index block, Index first, std::span<float> 
     for (Index n = std::max(begin, first); n < end; ++n)
         out[std::size_t(n - first)] += analytic[std::size_t(n - begin)].real();
 }
-
-namespace {
-
-    constexpr double largestStretch = 8.0;
-    constexpr double passedBandShare = 0.94; ///< fraction of half the rate
-    constexpr Index blockSamples = 8192;
-
-    /// One side of a Kaiser-windowed sinc, interpolated linearly.
-    class Kernel
-    {
-    public:
-        static constexpr double crossings = 48.0; ///< on either side
-
-        Kernel()
-        {
-            constexpr double beta = 9.0;
-            for (std::size_t i = 0; i < m_values.size(); ++i) {
-                const double x = double(i) / pointsPerCrossing;
-                const double angle = std::numbers::pi * x;
-                const double root = std::sqrt(std::max(0.0, 1.0 - x * x / (crossings * crossings)));
-                m_values[i] = (i == 0 ? 1.0 : std::sin(angle) / angle) * std::cyl_bessel_i(0.0, beta * root)
-                              / std::cyl_bessel_i(0.0, beta);
-            }
-            m_values.back() = 0.0;
-        }
-
-        /// |x| ≤ crossings
-        double operator()(double x) const
-        {
-            const double place = std::abs(x) * pointsPerCrossing;
-            const auto lower = std::min(std::size_t(place), m_values.size() - 2);
-            return m_values[lower] + (place - double(lower)) * (m_values[lower + 1] - m_values[lower]);
-        }
-
-    private:
-        static constexpr double pointsPerCrossing = 512.0;
-        std::array<double, std::size_t(crossings *pointsPerCrossing) + 1> m_values;
-    };
-
-    const Kernel &kernel()
-    {
-        static const Kernel made;
-        return made;
-    }
-
-    void check(const FrequencyCurve &curve, double toHz)
-    {
-        const auto [least, most] = std::minmax_element(curve.hz().begin(), curve.hz().end());
-        if (!(*least > 0.0))
-            throw Error("resampling along " + formatNumber(*least) + " … " + formatNumber(*most) + " Hz",
-                        "needs a fundamental above 0 Hz; shift the recording instead");
-        if (!(toHz >= *most / largestStretch && toHz <= *least * largestStretch))
-            throw Error("resampled line at " + formatNumber(toHz) + " Hz",
-                        "must lie in " + formatNumber(*most / largestStretch) + " … "
-                            + formatNumber(*least * largestStretch)
-                            + " Hz, so that time is stretched by a factor of 8 at most");
-    }
-
-} // namespace
 
 ResampledRecording::ResampledRecording(RecordingPointer base, int channel, const FrequencyCurve &curve, double toHz)
     : m_base(std::move(base)), m_channel(channel), m_curve(curve), m_toHz(toHz)

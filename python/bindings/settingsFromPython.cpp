@@ -54,6 +54,20 @@ namespace {
         return all;
     }
 
+    AnalysisSettings presetOr(const AskedSettings &asked, const AnalysisSettings &otherwise)
+    {
+        return asked.preset.is_none() ? otherwise : preset(py::cast<std::string>(py::str(asked.preset))).settings;
+    }
+
+    AnalysisSettings changed(AnalysisSettings settings, const AskedSettings &asked)
+    {
+        Assignments all = assignmentsOf(asked);
+        std::stable_partition(all.begin(), all.end(), [](const auto &one) { return one.first == "detector.kind"; });
+        for (const auto &[name, value] : all)
+            assign(settings, name, value);
+        return settings;
+    }
+
 } // namespace
 
 std::string snakeCase(const std::string &name)
@@ -83,24 +97,6 @@ std::string settingOfKeyword(const std::string &keyword)
     throw Error(keyword, "is the name of several settings: " + listed(found) + "; give the full one, settings={'"
                              + found.front() + "': ...}");
 }
-
-namespace {
-
-    AnalysisSettings presetOr(const AskedSettings &asked, const AnalysisSettings &otherwise)
-    {
-        return asked.preset.is_none() ? otherwise : preset(py::cast<std::string>(py::str(asked.preset))).settings;
-    }
-
-    AnalysisSettings changed(AnalysisSettings settings, const AskedSettings &asked)
-    {
-        Assignments all = assignmentsOf(asked);
-        std::stable_partition(all.begin(), all.end(), [](const auto &one) { return one.first == "detector.kind"; });
-        for (const auto &[name, value] : all)
-            assign(settings, name, value);
-        return settings;
-    }
-
-} // namespace
 
 AnalysisSettings settingsFromPython(const AskedSettings &asked, const AnalysisSettings &otherwise)
 {

@@ -261,36 +261,6 @@ namespace {
         return result;
     }
 
-} // namespace
-
-SequentialOutcome simulate(const SequentialStudy &study, const RunContext &context)
-{
-    check(study);
-    const TrajectorySampler sampler(study.model);
-    std::vector<SimulatedTrial> outcomes(std::size_t(study.trials));
-    const Index items = (study.trials + trialsOfAnItem - 1) / trialsOfAnItem;
-    parallelFor(items, context, "sequential tests", [&]() -> std::function<void(Index)> {
-        const auto runner = std::make_shared<Runner>(study, sampler);
-        const auto judge =
-            study.estimatesTrajectory && study.actualSnr ? std::make_shared<TrajectoryJudge>(study, sampler) : nullptr;
-        return [&, runner, judge](Index item) {
-            const Index first = item * trialsOfAnItem;
-            const Index count = std::min(trialsOfAnItem, study.trials - first);
-            SimulatedTrial *own = outcomes.data() + first;
-            runner->run(first, count, own, context);
-            for (Index i = 0; judge && i < count; ++i)
-                if (own[i].decision == SprtDecision::H1) {
-                    const TrajectoryJudge::Errors errors = judge->errorsOf(first + i, own[i].stages);
-                    own[i].isLastCorrect = errors.last <= study.lastWithinCells;
-                    own[i].isTrackCorrect = errors.largest <= study.trackWithinCells;
-                }
-        };
-    });
-    return summarise(study, outcomes);
-}
-
-namespace {
-
     /// ln Λ of every trial after every one of `largest` stages, stage by stage.
     std::vector<double> lnRatios(const SequentialStudy &study, Index largest, const RunContext &context)
     {
@@ -328,6 +298,32 @@ namespace {
     }
 
 } // namespace
+
+SequentialOutcome simulate(const SequentialStudy &study, const RunContext &context)
+{
+    check(study);
+    const TrajectorySampler sampler(study.model);
+    std::vector<SimulatedTrial> outcomes(std::size_t(study.trials));
+    const Index items = (study.trials + trialsOfAnItem - 1) / trialsOfAnItem;
+    parallelFor(items, context, "sequential tests", [&]() -> std::function<void(Index)> {
+        const auto runner = std::make_shared<Runner>(study, sampler);
+        const auto judge =
+            study.estimatesTrajectory && study.actualSnr ? std::make_shared<TrajectoryJudge>(study, sampler) : nullptr;
+        return [&, runner, judge](Index item) {
+            const Index first = item * trialsOfAnItem;
+            const Index count = std::min(trialsOfAnItem, study.trials - first);
+            SimulatedTrial *own = outcomes.data() + first;
+            runner->run(first, count, own, context);
+            for (Index i = 0; judge && i < count; ++i)
+                if (own[i].decision == SprtDecision::H1) {
+                    const TrajectoryJudge::Errors errors = judge->errorsOf(first + i, own[i].stages);
+                    own[i].isLastCorrect = errors.last <= study.lastWithinCells;
+                    own[i].isTrackCorrect = errors.largest <= study.trackWithinCells;
+                }
+        };
+    });
+    return summarise(study, outcomes);
+}
 
 std::optional<Index> simulatedFixedSampleSize(const SequentialStudy &study, Index largest, const RunContext &context)
 {

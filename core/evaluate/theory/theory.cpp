@@ -57,8 +57,6 @@ double lindleyExceedance(double threshold, double lnK)
     return sigma * std::exp(-(1.0 - sigma) * threshold);
 }
 
-namespace math = boost::math;
-
 namespace {
 
     /// P( Γ(shape) > value ).
@@ -113,6 +111,38 @@ namespace {
         return sum;
     }
 
+    constexpr double smallestDrawnProbability = 1e-15;
+    constexpr double step = 0.25;
+    constexpr double highestLevel = 1000.0;
+
+    using Law = std::function<double(double level)>; ///< negative where it says nothing
+
+    Law lawOf(const AnalysisSettings &settings, const Calibration &calibration)
+    {
+        const bool isIndependentInTime = settings.spectrogram.stepsPerWindow == 1;
+        const ModelSettings &model = settings.model;
+        if (std::holds_alternative<EnergySettings>(settings.detector))
+            return [](double level) { return std::exp(-level); };
+        if (const auto *integrator = std::get_if<IntegratorSettings>(&settings.detector);
+            integrator && isIndependentInTime && integrator->shape == IntegratorSettings::Shape::Boxcar) {
+            const int looks = int(std::lround(integrator->durationWindows));
+            if (looks >= 1 && double(looks) == integrator->durationWindows)
+                return [looks](double level) { return level > 0.0 ? pfaOfMeanPower(level, looks) : 1.0; };
+        }
+        const auto *smd = std::get_if<SmdSettings>(&settings.detector);
+        const bool isOneToOne = model.motion == Motion::Slopes && model.lowestSlope == model.highestSlope;
+        if (smd && isIndependentInTime && isOneToOne && model.likelihood == LikelihoodKind::Linear
+            && calibration.lnK < -1.0
+            && (smd->reset == SmdSettings::Reset::Fixed || smd->reset == SmdSettings::Reset::Calibrated))
+            return [lnK = calibration.lnK](double level) {
+                return level + lnK >= 0.0 ? lindleyExceedance(level + lnK, lnK) : -1.0;
+            };
+        return {};
+    }
+
+    constexpr Index mostCells = 2'000'000;
+    constexpr std::int64_t pointMinimumCells = 10; ///< cells above a level that is worth a point
+
 } // namespace
 
 double pdOfMeanPower(double threshold, int looks, double snr, Fluctuation fluctuation)
@@ -151,39 +181,6 @@ double pdOfPofN(int p, int n, double threshold, double snr, Fluctuation fluctuat
     return math::quadrature::gauss_kronrod<double, 31>::integrate(weighted, 0.0, 7.0, 12, 1e-9);
 }
 
-namespace {
-
-    constexpr double smallestDrawnProbability = 1e-15;
-    constexpr double step = 0.25;
-    constexpr double highestLevel = 1000.0;
-
-    using Law = std::function<double(double level)>; ///< negative where it says nothing
-
-    Law lawOf(const AnalysisSettings &settings, const Calibration &calibration)
-    {
-        const bool isIndependentInTime = settings.spectrogram.stepsPerWindow == 1;
-        const ModelSettings &model = settings.model;
-        if (std::holds_alternative<EnergySettings>(settings.detector))
-            return [](double level) { return std::exp(-level); };
-        if (const auto *integrator = std::get_if<IntegratorSettings>(&settings.detector);
-            integrator && isIndependentInTime && integrator->shape == IntegratorSettings::Shape::Boxcar) {
-            const int looks = int(std::lround(integrator->durationWindows));
-            if (looks >= 1 && double(looks) == integrator->durationWindows)
-                return [looks](double level) { return level > 0.0 ? pfaOfMeanPower(level, looks) : 1.0; };
-        }
-        const auto *smd = std::get_if<SmdSettings>(&settings.detector);
-        const bool isOneToOne = model.motion == Motion::Slopes && model.lowestSlope == model.highestSlope;
-        if (smd && isIndependentInTime && isOneToOne && model.likelihood == LikelihoodKind::Linear
-            && calibration.lnK < -1.0
-            && (smd->reset == SmdSettings::Reset::Fixed || smd->reset == SmdSettings::Reset::Calibrated))
-            return [lnK = calibration.lnK](double level) {
-                return level + lnK >= 0.0 ? lindleyExceedance(level + lnK, lnK) : -1.0;
-            };
-        return {};
-    }
-
-} // namespace
-
 std::vector<ExceedancePoint> closedFormExceedance(const AnalysisSettings &settings, const Calibration &calibration)
 {
     std::vector<ExceedancePoint> points;
@@ -200,13 +197,6 @@ std::vector<ExceedancePoint> closedFormExceedance(const AnalysisSettings &settin
     }
     return points;
 }
-
-namespace {
-
-    constexpr Index mostCells = 2'000'000;
-    constexpr std::int64_t pointMinimumCells = 10; ///< cells above a level that is worth a point
-
-} // namespace
 
 std::vector<ExceedancePoint> boxExceedance(const PeakPyramid &statistic, Index beginFrame, Index endFrame,
                                            Index beginCell, Index endCell)

@@ -92,85 +92,6 @@ namespace {
         return sigmfText(rows, infoOf(recording));
     }
 
-} // namespace
-
-std::string pathBelow(const std::string &recording, const std::string &database)
-{
-    fs::path below;
-    for (const fs::path &part : fs::path(fileNameFromText(storedPath(recording, database))).relative_path())
-        if (part != ".." && part != ".")
-            below /= part;
-    return below.string();
-}
-
-void exportEvents(SurveyDatabase &survey, const std::string &path)
-{
-    AtomicFile file(path);
-    file.write("recording,utc_onset," + csvNames(surveyEventColumns()) + ",f_low,f_high,review,note\n");
-    for (const SurveyRecording &recording : survey.recordings()) {
-        std::string text;
-        for (const SurveyEvent &event : survey.events(recording.id))
-            text += csvText(oneLine(storedPath(recording.file.path, survey.path()))) + "," + row(event, recording);
-        file.write(text);
-    }
-    file.commit();
-}
-
-void exportTracks(SurveyDatabase &survey, const std::string &path)
-{
-    AtomicFile file(path);
-    file.write("recording,track," + csvNames(surveyTrackColumns()) + "\n");
-    for (const SurveyRecording &recording : survey.recordings()) {
-        const std::string name = csvText(oneLine(storedPath(recording.file.path, survey.path())));
-        std::string text;
-        for (const SurveyPoint &p : survey.points(recording.id))
-            text += name + "," + std::to_string(p.track) + cells(p.values) + "\n";
-        file.write(text);
-    }
-    file.commit();
-}
-
-void exportStoneSoup(SurveyDatabase &survey, const std::string &path, std::optional<double> startUnixSeconds)
-{
-    const std::int64_t unknown = survey.connection().integer(
-        "SELECT count(*) FROM recordings WHERE start_unix_s IS NULL AND id IN (SELECT recording FROM tracks)");
-    if (unknown > 0 && !startUnixSeconds)
-        throw Error(survey.path(), std::to_string(unknown)
-                                       + " recording(s) have no start time, which Stone Soup requires; give "
-                                         "--start, such as 2024-07-26T00:00:00Z");
-    SqliteStatement point = survey.connection().prepare(
-        "SELECT coalesce(start_unix_s, ?) + t AS time, f, recording || '-' || track, path, t, statistic, snr_db "
-        "FROM tracks JOIN recordings ON recordings.id = recording ORDER BY time, recording, track, point");
-    point.with(startUnixSeconds);
-    AtomicFile file(path);
-    file.write("time,frequency_hz,track,recording,t,statistic,snr_db\n");
-    while (point.next())
-        file.write(formatUtc(point.number(0)) + cells({point.number(1)}) + "," + point.text(2) + ","
-                   + csvText(oneLine(point.text(3))) + cells({point.number(4), point.number(5), point.number(6)})
-                   + "\n");
-    file.commit();
-}
-
-void exportLists(SurveyDatabase &survey, SurveyList list, const std::string &folder)
-{
-    const std::string ending = list == SurveyList::Raven      ? ".selections.txt"
-                               : list == SurveyList::Audacity ? ".txt"
-                                                              : ".sigmf-meta";
-    for (const SurveyRecording &recording : survey.recordings()) {
-        const std::vector<SurveyEvent> events = survey.events(recording.id);
-        if (events.empty())
-            continue;
-        const fs::path path = fs::path(folder) / (pathBelow(recording.file.path, survey.path()) + ending);
-        std::error_code code;
-        fs::create_directories(path.parent_path(), code);
-        writeTextFile(path.string(), listText(events, recording, list));
-    }
-}
-
-namespace fs = std::filesystem;
-
-namespace {
-
     const std::string standard = "https://raw.githubusercontent.com/tdwg/camtrap-dp/1.0.2/";
 
     // Columns of the tables, in the order of their schemas.
@@ -376,6 +297,79 @@ namespace {
     }
 
 } // namespace
+
+std::string pathBelow(const std::string &recording, const std::string &database)
+{
+    fs::path below;
+    for (const fs::path &part : fs::path(fileNameFromText(storedPath(recording, database))).relative_path())
+        if (part != ".." && part != ".")
+            below /= part;
+    return below.string();
+}
+
+void exportEvents(SurveyDatabase &survey, const std::string &path)
+{
+    AtomicFile file(path);
+    file.write("recording,utc_onset," + csvNames(surveyEventColumns()) + ",f_low,f_high,review,note\n");
+    for (const SurveyRecording &recording : survey.recordings()) {
+        std::string text;
+        for (const SurveyEvent &event : survey.events(recording.id))
+            text += csvText(oneLine(storedPath(recording.file.path, survey.path()))) + "," + row(event, recording);
+        file.write(text);
+    }
+    file.commit();
+}
+
+void exportTracks(SurveyDatabase &survey, const std::string &path)
+{
+    AtomicFile file(path);
+    file.write("recording,track," + csvNames(surveyTrackColumns()) + "\n");
+    for (const SurveyRecording &recording : survey.recordings()) {
+        const std::string name = csvText(oneLine(storedPath(recording.file.path, survey.path())));
+        std::string text;
+        for (const SurveyPoint &p : survey.points(recording.id))
+            text += name + "," + std::to_string(p.track) + cells(p.values) + "\n";
+        file.write(text);
+    }
+    file.commit();
+}
+
+void exportStoneSoup(SurveyDatabase &survey, const std::string &path, std::optional<double> startUnixSeconds)
+{
+    const std::int64_t unknown = survey.connection().integer(
+        "SELECT count(*) FROM recordings WHERE start_unix_s IS NULL AND id IN (SELECT recording FROM tracks)");
+    if (unknown > 0 && !startUnixSeconds)
+        throw Error(survey.path(), std::to_string(unknown)
+                                       + " recording(s) have no start time, which Stone Soup requires; give "
+                                         "--start, such as 2024-07-26T00:00:00Z");
+    SqliteStatement point = survey.connection().prepare(
+        "SELECT coalesce(start_unix_s, ?) + t AS time, f, recording || '-' || track, path, t, statistic, snr_db "
+        "FROM tracks JOIN recordings ON recordings.id = recording ORDER BY time, recording, track, point");
+    point.with(startUnixSeconds);
+    AtomicFile file(path);
+    file.write("time,frequency_hz,track,recording,t,statistic,snr_db\n");
+    while (point.next())
+        file.write(formatUtc(point.number(0)) + cells({point.number(1)}) + "," + point.text(2) + ","
+                   + csvText(oneLine(point.text(3))) + cells({point.number(4), point.number(5), point.number(6)})
+                   + "\n");
+    file.commit();
+}
+
+void exportLists(SurveyDatabase &survey, SurveyList list, const std::string &folder)
+{
+    const std::string ending = list == SurveyList::Raven      ? ".selections.txt"
+                               : list == SurveyList::Audacity ? ".txt"
+                                                              : ".sigmf-meta";
+    for (const SurveyRecording &recording : survey.recordings()) {
+        const std::vector<SurveyEvent> events = survey.events(recording.id);
+        if (events.empty())
+            continue;
+        const fs::path path = fs::path(folder) / (pathBelow(recording.file.path, survey.path()) + ending);
+        std::error_code code;
+        fs::create_directories(path.parent_path(), code);
+        writeTextFile(path.string(), listText(events, recording, list));
+    }
+}
 
 void exportCamtrap(SurveyDatabase &survey, const std::string &folder, const CamtrapPlace &place)
 {

@@ -157,6 +157,28 @@ namespace {
         return isFirst;
     }
 
+    constexpr std::size_t mostOrder = 5;
+    constexpr double mostPartial = 0.995;
+    constexpr int searchBits = 10;
+    constexpr int cycles = 2; ///< passes over all partial correlations of an order
+
+    /// -2 ln L of the restricted likelihood.
+    double restricted(const CorrelatedErrors &errors, Eigen::VectorXd r, Eigen::MatrixXd J)
+    {
+        errors.whiten(r);
+        for (Eigen::Index column = 0; column < J.cols(); ++column)
+            errors.whiten(J.col(column));
+        const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(J);
+        const Eigen::VectorXd rotated = qr.householderQ().transpose() * r;
+        const Eigen::Index freedom = r.size() - J.cols();
+        double result = errors.logDeterminant();
+        result += double(freedom) * std::log(std::max(1e-300, rotated.tail(freedom).squaredNorm()));
+        constexpr double rounding = 1e-12;
+        for (Eigen::Index i = 0; i < J.cols(); ++i)
+            result += 2.0 * std::log(std::max(std::abs(qr.matrixR()(i, i)), rounding * qr.maxPivot()));
+        return result;
+    }
+
 } // namespace
 
 DopplerProblem::DopplerProblem(const std::vector<DopplerPoint> &points, double propagation)
@@ -285,32 +307,6 @@ DopplerCoordinates DopplerProblem::minimum(const DopplerCoordinates &from, Doppl
 {
     return minimise(Reduced(*this, int(held), own), from);
 }
-
-namespace {
-
-    constexpr std::size_t mostOrder = 5;
-    constexpr double mostPartial = 0.995;
-    constexpr int searchBits = 10;
-    constexpr int cycles = 2; ///< passes over all partial correlations of an order
-
-    /// -2 ln L of the restricted likelihood.
-    double restricted(const CorrelatedErrors &errors, Eigen::VectorXd r, Eigen::MatrixXd J)
-    {
-        errors.whiten(r);
-        for (Eigen::Index column = 0; column < J.cols(); ++column)
-            errors.whiten(J.col(column));
-        const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(J);
-        const Eigen::VectorXd rotated = qr.householderQ().transpose() * r;
-        const Eigen::Index freedom = r.size() - J.cols();
-        double result = errors.logDeterminant();
-        result += double(freedom) * std::log(std::max(1e-300, rotated.tail(freedom).squaredNorm()));
-        constexpr double rounding = 1e-12;
-        for (Eigen::Index i = 0; i < J.cols(); ++i)
-            result += 2.0 * std::log(std::max(std::abs(qr.matrixR()(i, i)), rounding * qr.maxPivot()));
-        return result;
-    }
-
-} // namespace
 
 CorrelatedErrors::CorrelatedErrors(std::vector<char> isFirst, const std::vector<double> &partial)
     : m_predictors{{}}, m_variances{1.0}

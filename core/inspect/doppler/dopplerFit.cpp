@@ -299,33 +299,6 @@ namespace {
         fit.effectivePoints = settling.problem.errors().effectiveCount();
     }
 
-} // namespace
-
-DopplerFit fitDopplerPass(const std::vector<DopplerPoint> &points, double propagation)
-{
-    check(points, propagation);
-    const Settling settling = settled(points, propagation);
-    DopplerOptimum optimum = optimumOf(settling);
-    const bool isBent = isSurelyBent(settling, optimum);
-    const auto bounds = dopplerLimits(settling.problem, optimum,
-                                      isBent ? settling.others : minimaElsewhere(settling, points, propagation));
-    DopplerFit fit;
-    fit.pass = settling.problem.passOf(optimum.x);
-    fit.propagation = propagation;
-    fit.restHz = bounds[std::size_t(DopplerParameter::RestHz)];
-    fit.metresPerSecond = bounds[std::size_t(DopplerParameter::Speed)];
-    fit.rangeMetres = bounds[std::size_t(DopplerParameter::Range)];
-    fit.closestSeconds = bounds[std::size_t(DopplerParameter::Closest)];
-    fit.residualHz = residualsOf(points, propagation, fit.pass);
-    fit.isLeftOut = settling.isOut;
-    describeResiduals(fit, settling, optimum);
-    fit.isBent = isBent;
-    fit.sentences = dopplerSentences(fit, points);
-    return fit;
-}
-
-namespace {
-
     /// Limits of a model's slopes, bins per frame.
     struct Slopes {
         double lowest = 0.0, highest = 0.0;
@@ -391,6 +364,29 @@ namespace {
     }
 
 } // namespace
+
+DopplerFit fitDopplerPass(const std::vector<DopplerPoint> &points, double propagation)
+{
+    check(points, propagation);
+    const Settling settling = settled(points, propagation);
+    DopplerOptimum optimum = optimumOf(settling);
+    const bool isBent = isSurelyBent(settling, optimum);
+    const auto bounds = dopplerLimits(settling.problem, optimum,
+                                      isBent ? settling.others : minimaElsewhere(settling, points, propagation));
+    DopplerFit fit;
+    fit.pass = settling.problem.passOf(optimum.x);
+    fit.propagation = propagation;
+    fit.restHz = bounds[std::size_t(DopplerParameter::RestHz)];
+    fit.metresPerSecond = bounds[std::size_t(DopplerParameter::Speed)];
+    fit.rangeMetres = bounds[std::size_t(DopplerParameter::Range)];
+    fit.closestSeconds = bounds[std::size_t(DopplerParameter::Closest)];
+    fit.residualHz = residualsOf(points, propagation, fit.pass);
+    fit.isLeftOut = settling.isOut;
+    describeResiduals(fit, settling, optimum);
+    fit.isBent = isBent;
+    fit.sentences = dopplerSentences(fit, points);
+    return fit;
+}
 
 DopplerTrack dopplerTrack(const AnalysisPlan &plan, const Track &track, double centreHz)
 {

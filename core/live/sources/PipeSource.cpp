@@ -22,6 +22,56 @@ namespace {
     constexpr std::size_t readBytes = std::size_t(1) << 16; ///< capacity of a pipe
     constexpr std::ptrdiff_t nothingYet = -1;
 
+    constexpr std::size_t largestFormatBytes = 4096;
+    constexpr int mostChunks = 1000;
+    constexpr const char *accepted =
+        "give a WAV file, or say what the samples are (such as --raw-type ci16_le --raw-rate 48000)";
+
+    std::uint32_t number(std::span<const std::byte> bytes, std::size_t at, std::size_t count)
+    {
+        return std::uint32_t(littleEndian(bytes.subspan(at, count)));
+    }
+
+    /// Whether a length stands for an unknown one: programs that write to a pipe give the largest their numbers hold.
+    bool isOfUnknownLength(Index dataBytes)
+    {
+        constexpr Index page = 0x1000; // room that some of them leave for the header
+        return dataBytes == 0 || (dataBytes >= 0x80000000 - page && dataBytes < 0x80000000)
+               || (dataBytes >= 0x100000000 - page && dataBytes <= 0xffffffff);
+    }
+
+    /// Parses a "fmt " chunk.
+    WavHeader headerOf(std::span<const std::byte> fmt, const std::string &where)
+    {
+        constexpr std::uint32_t pcm = 1;
+        constexpr std::uint32_t ieee = 3;
+        constexpr std::uint32_t extensible = 0xfffe;
+        if (fmt.size() < 16)
+            throw Error(where, std::string("its WAV header is incomplete; ") + accepted);
+        std::uint32_t tag = number(fmt, 0, 2);
+        if (tag == extensible && fmt.size() >= 26)
+            tag = number(fmt, 24, 2);
+        const std::uint32_t bits = number(fmt, 14, 2);
+        WavHeader header;
+        SampleType &type = header.format.type;
+        const bool isInteger = tag == pcm && (bits == 8 || bits == 16 || bits == 24 || bits == 32);
+        if (!isInteger && !(tag == ieee && (bits == 32 || bits == 64)))
+            throw Error(where, "its WAV samples are of format " + std::to_string(tag) + " with " + std::to_string(bits)
+                                   + " bits; integers of 8, 16, 24 or 32 bits and floats of 32 or 64 can be read");
+        header.isPacked24 = bits == 24;
+        type.number = tag == ieee ? SampleType::Number::Float
+                      : bits == 8 ? SampleType::Number::Unsigned
+                                  : SampleType::Number::Signed;
+        type.bytes = header.isPacked24 ? 4 : int(bits / 8);
+        header.format.channelCount = int(number(fmt, 2, 2));
+        header.format.sampleRateHz = number(fmt, 4, 4);
+        header.format.origin = "WAV";
+        if (header.format.channelCount < 1 || header.format.channelCount > 1024 || header.format.sampleRateHz < 1.0)
+            throw Error(where, "its WAV header gives " + std::to_string(header.format.channelCount) + " channels at "
+                                   + std::to_string(number(fmt, 4, 4)) + " Hz");
+        return header;
+    }
+
 } // namespace
 
 PipeSource::PipeSource(const std::string &path, const std::optional<StreamFormat> &raw, const std::stop_token &stop)
@@ -99,60 +149,6 @@ Heard PipeSource::hear(std::chrono::milliseconds patience)
     heard.bytes = m_isPacked24 ? expand24(bytes) : std::move(bytes);
     return heard;
 }
-
-namespace {
-
-    constexpr std::size_t largestFormatBytes = 4096;
-    constexpr int mostChunks = 1000;
-    constexpr const char *accepted =
-        "give a WAV file, or say what the samples are (such as --raw-type ci16_le --raw-rate 48000)";
-
-    std::uint32_t number(std::span<const std::byte> bytes, std::size_t at, std::size_t count)
-    {
-        return std::uint32_t(littleEndian(bytes.subspan(at, count)));
-    }
-
-    /// Whether a length stands for an unknown one: programs that write to a pipe give the largest their numbers hold.
-    bool isOfUnknownLength(Index dataBytes)
-    {
-        constexpr Index page = 0x1000; // room that some of them leave for the header
-        return dataBytes == 0 || (dataBytes >= 0x80000000 - page && dataBytes < 0x80000000)
-               || (dataBytes >= 0x100000000 - page && dataBytes <= 0xffffffff);
-    }
-
-    /// Parses a "fmt " chunk.
-    WavHeader headerOf(std::span<const std::byte> fmt, const std::string &where)
-    {
-        constexpr std::uint32_t pcm = 1;
-        constexpr std::uint32_t ieee = 3;
-        constexpr std::uint32_t extensible = 0xfffe;
-        if (fmt.size() < 16)
-            throw Error(where, std::string("its WAV header is incomplete; ") + accepted);
-        std::uint32_t tag = number(fmt, 0, 2);
-        if (tag == extensible && fmt.size() >= 26)
-            tag = number(fmt, 24, 2);
-        const std::uint32_t bits = number(fmt, 14, 2);
-        WavHeader header;
-        SampleType &type = header.format.type;
-        const bool isInteger = tag == pcm && (bits == 8 || bits == 16 || bits == 24 || bits == 32);
-        if (!isInteger && !(tag == ieee && (bits == 32 || bits == 64)))
-            throw Error(where, "its WAV samples are of format " + std::to_string(tag) + " with " + std::to_string(bits)
-                                   + " bits; integers of 8, 16, 24 or 32 bits and floats of 32 or 64 can be read");
-        header.isPacked24 = bits == 24;
-        type.number = tag == ieee ? SampleType::Number::Float
-                      : bits == 8 ? SampleType::Number::Unsigned
-                                  : SampleType::Number::Signed;
-        type.bytes = header.isPacked24 ? 4 : int(bits / 8);
-        header.format.channelCount = int(number(fmt, 2, 2));
-        header.format.sampleRateHz = number(fmt, 4, 4);
-        header.format.origin = "WAV";
-        if (header.format.channelCount < 1 || header.format.channelCount > 1024 || header.format.sampleRateHz < 1.0)
-            throw Error(where, "its WAV header gives " + std::to_string(header.format.channelCount) + " channels at "
-                                   + std::to_string(number(fmt, 4, 4)) + " Hz");
-        return header;
-    }
-
-} // namespace
 
 WavHeader readWavHeader(const std::function<bool(std::span<std::byte>)> &read, const std::string &where)
 {

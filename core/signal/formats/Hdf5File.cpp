@@ -221,6 +221,26 @@ namespace {
         return true;
     }
 
+    /// An attribute with a single value; null handles if it is missing. Call with the lock held.
+    struct Attribute {
+        Handle handle;
+        Handle type;
+
+        Attribute(hid_t object, const std::string &name)
+            : handle(H5Aexists(object, name.c_str()) > 0 ? H5Aopen(object, name.c_str(), H5P_DEFAULT) : -1, H5Aclose),
+              type(handle >= 0 ? H5Aget_type(handle) : -1, H5Tclose)
+        {
+        }
+
+        bool isOne() const
+        {
+            if (handle < 0 || type < 0)
+                return false;
+            const Handle space(H5Aget_space(handle), H5Sclose);
+            return H5Sget_simple_extent_npoints(space) == 1;
+        }
+    };
+
 } // namespace
 
 void Hdf5File::shareLibrary()
@@ -298,30 +318,6 @@ Hdf5Dataset::~Hdf5Dataset()
     const LibraryUse use;
     H5Dclose(m_handle);
 }
-
-namespace {
-
-    /// An attribute with a single value; null handles if it is missing. Call with the lock held.
-    struct Attribute {
-        Handle handle;
-        Handle type;
-
-        Attribute(hid_t object, const std::string &name)
-            : handle(H5Aexists(object, name.c_str()) > 0 ? H5Aopen(object, name.c_str(), H5P_DEFAULT) : -1, H5Aclose),
-              type(handle >= 0 ? H5Aget_type(handle) : -1, H5Tclose)
-        {
-        }
-
-        bool isOne() const
-        {
-            if (handle < 0 || type < 0)
-                return false;
-            const Handle space(H5Aget_space(handle), H5Sclose);
-            return H5Sget_simple_extent_npoints(space) == 1;
-        }
-    };
-
-} // namespace
 
 std::optional<double> Hdf5Dataset::number(const std::string &name) const
 {
