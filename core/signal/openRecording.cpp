@@ -29,9 +29,14 @@ RecordingPointer openRecording(const std::string &path, const OpenOptions &given
                                           [options](const std::string &file) { return openRecording(file, options); });
     if (!options.rawType.empty())
         return openRaw(path, options);
-    return std::ranges::find_if(fileFormats(),
-                                [&](const FileFormat &format) { return format.openSamples && format.recognises(path); })
-        ->openSamples(path, options);
+    const auto format = std::ranges::find_if(
+        fileFormats(), [&](const FileFormat &each) { return each.openSamples && each.recognises(path); });
+    const bool isTold = given.rawRateHz > 0.0 || given.rawChannels != 1 || given.rawHeaderBytes != 0;
+    RecordingPointer recording = format->openSamples(path, options);
+    if (isTold && !isNamedRaw(path))
+        throw Error(path, "describes its samples itself; --raw-rate, --raw-channels and --raw-header are for raw ones, "
+                          "whose type must be given (such as --raw-type ci16_le)");
+    return recording;
 }
 
 std::string recordingHash(const std::string &path)

@@ -141,6 +141,21 @@ private slots:
         QVERIFY(contains(refusal(path("a.iq"), options), "unknown is not a sample type; expected one of cf32"));
     }
 
+    void whatIsSaidOfRawSamplesIsNotIgnored()
+    {
+        writeAudio(path("a.wav"), SF_FORMAT_WAV | SF_FORMAT_PCM_16, 1, 8000, someNoise(100));
+        OpenOptions rate, channels, header;
+        rate.rawRateHz = 1000.0;
+        channels.rawChannels = 2;
+        header.rawHeaderBytes = 44;
+        for (OpenOptions options : {rate, channels, header}) {
+            QVERIFY(contains(refusal(path("a.wav"), options), "a.wav: describes its samples itself; --raw-rate"));
+            options.rawType = "ci16_le";
+            options.rawRateHz = 1000.0;
+            QCOMPARE(openRecording(path("a.wav"), options)->info().container, std::string("raw"));
+        }
+    }
+
     // The start of the second is in the name's zone; a centre frequency is known of I and Q alone.
     void namesTellWhatFilesDoNot()
     {
