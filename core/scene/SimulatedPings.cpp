@@ -97,18 +97,18 @@ void SimulatedPings::readPing(Index ping, std::span<float> y) const
 
 void SimulatedPings::addEchoes(Index ping, std::span<const float> noise, std::span<float> power) const
 {
-    struct Sum {
+    struct EchoSum {
         double constant = 0.0;    ///< powers added to the cell's
         double fluctuating = 0.0; ///< powers that scale the noise's
         double amplitude = 0.0;
     };
-    std::map<Index, Sum> sums;
+    std::map<Index, EchoSum> sums;
     for (std::size_t i = 0; i < m_truth.targets.size(); ++i) {
         const Index cell = m_truth.targets[i].cellAt(ping);
         if (cell < 0)
             continue;
         const double snr = ratioFromDb(m_scene.targets[i].snrDb) * fluctuationOf(m_scene, i, ping);
-        Sum &sum = sums[cell];
+        EchoSum &sum = sums[cell];
         switch (m_scene.targets[i].echo) {
         case Echo::Constant:
             sum.constant += snr;
