@@ -1,18 +1,12 @@
 #include "refine/PolynomialFit.h"
 
+#include "refine/constants.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace faintline {
-
-namespace {
-
-    constexpr double correlatedFrames = 6.0;
-    constexpr double curvatureDeviations = 3.0; ///< standard deviations
-    constexpr std::size_t curvatureMinimumFrames = 8;
-
-} // namespace
 
 PolynomialFit::PolynomialFit(std::span<const SmoothedPoint> points, Index first, double leastDeviation)
     : m_middle(double(first) + 0.5 * double(points.size() - 1))
@@ -42,7 +36,7 @@ PolynomialFit::PolynomialFit(std::span<const SmoothedPoint> points, Index first,
             m_variances[k] =
                 squares[k] > 0.0 ? correlatedFrames * residual / squares[k] : std::numeric_limits<double>::infinity();
     };
-    if (points.size() >= curvatureMinimumFrames) {
+    if (points.size() >= fewestCurvatureFrames) {
         m_isCurved = true;
         setVariances(3);
         m_isCurved = std::abs(m_coefficients[2]) > curvatureDeviations * std::sqrt(m_variances[2]);

@@ -1,6 +1,7 @@
 #include "refine/TrackPiece.h"
 
 #include "refine/bothWays.h"
+#include "refine/constants.h"
 #include "refine/explainPath.h"
 #include "refine/levelBeside.h"
 
@@ -11,11 +12,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr Index endSlopeFrames = 24;       ///< at either end, for extrapolating it
-    constexpr double strongNatsPerFrame = 2.0; ///< nats per frame
-    constexpr Index pieceLimitFrames = 4096;   ///< frames of a track that are processed together
-    constexpr Index pieceOverlapFrames = 64;   ///< frames of the neighbouring pieces that are also processed
 
     /// Least-squares slope of `count` points from `first` on, cells per frame.
     double slopeOf(const std::vector<TrackPoint> &points, std::size_t first, std::size_t count)
@@ -67,7 +63,7 @@ namespace {
 void addPieces(std::vector<TrackPiece> &pieces, const Track &track, Index frameCount, double binsPerCell)
 {
     const std::size_t length = track.points.size();
-    const std::size_t count = (length + pieceLimitFrames - 1) / pieceLimitFrames;
+    const std::size_t count = (length + piecesFromFrames - 1) / piecesFromFrames;
     for (std::size_t i = 0; i < count; ++i) {
         TrackPiece piece{&track, i * length / count, (i + 1) * length / count, {}};
         piece.strip = stripRound(piece, frameCount, binsPerCell);

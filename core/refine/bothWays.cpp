@@ -1,6 +1,7 @@
 #include "refine/bothWays.h"
 
 #include "noise/medians.h"
+#include "refine/constants.h"
 
 #include <algorithm>
 #include <array>
@@ -11,16 +12,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr double corridorCells = 3.0;     ///< resolution cells on either side of the path
-    constexpr Index levelFrames = 12;         ///< on either side
-    constexpr double changeMinimumNats = 2.0; ///< nat: minimum cost of an interruption, even with a low threshold
-    constexpr double levelMinimumRatio = 0.5;
-    constexpr double levelLimitRatio = 4.0;
-    constexpr double anyLevelRatio = 1e9;          ///< as large as any
-    constexpr double singleFrameLevelRatio = 10.0; ///< from this SNR on, the neighbouring frames suffice for a frame's
-                                                   ///< position
-    constexpr double positionLimitFrames = 8.0;
 
     Index inBins(double cells, double binsPerCell)
     {
@@ -83,7 +74,7 @@ namespace {
             return seen;
         }
 
-        double lnChange() const { return -std::max(0.5 * m_model.threshold, changeMinimumNats); }
+        double lnChange() const { return -std::max(0.5 * m_model.threshold, leastChangeNats); }
 
         std::vector<double> levels(const BothWays &seen) const
         {
@@ -95,7 +86,7 @@ namespace {
                 values.push_back(std::isnan(y) ? 0.0 : double(y));
             }
             std::vector<double> result(values.size());
-            runningMean(values, weights, levelFrames, result);
+            runningMean(values, weights, levelHalfFrames, result);
             for (double &level : result)
                 level = std::max(0.0, level - 1.0);
             return result;
@@ -104,10 +95,10 @@ namespace {
         /// The likelihood at a level, in half octaves.
         const Likelihood &likelihoodAt(LikelihoodKind kind, double level)
         {
-            const auto step = int(
-                std::lround(2.0 * std::log2(std::clamp(level, levelMinimumRatio, anyLevelRatio) / levelMinimumRatio)));
+            const auto step =
+                int(std::lround(2.0 * std::log2(std::clamp(level, leastLevelRatio, anyLevelRatio) / leastLevelRatio)));
             return m_likelihoods
-                .try_emplace(std::pair(kind, step), kind, levelMinimumRatio * std::pow(2.0, 0.5 * double(step)))
+                .try_emplace(std::pair(kind, step), kind, leastLevelRatio * std::pow(2.0, 0.5 * double(step)))
                 .first->second;
         }
 
@@ -129,7 +120,7 @@ namespace {
                 const double difference = likelihoodAt(LikelihoodKind::Exponential, m_expected[i]).at(y)
                                           - likelihoodAt(m_model.likelihood.kind(), m_expected[i]).at(y);
                 all += difference;
-                if (isPresentAt(seen, at - levelFrames) && isPresentAt(seen, at + levelFrames)) {
+                if (isPresentAt(seen, at - levelHalfFrames) && isPresentAt(seen, at + levelHalfFrames)) {
                     inside += difference;
                     hasInside = true;
                 }
@@ -157,13 +148,13 @@ namespace {
                 values.push_back(std::isnan(y) ? 0.0 : (double(y) - 1.0) * floorAt(at));
             }
             std::vector<double> means(values.size());
-            runningMean(values, weights, levelFrames, means, 1e-9);
+            runningMean(values, weights, levelHalfFrames, means, 1e-9);
             std::vector<double> result;
             const Index last = std::ssize(means) - 1;
             for (Index at = 0; at <= last; ++at)
                 result.push_back(
-                    std::max({means[std::size_t(at)], means[std::size_t(std::max<Index>(0, at - levelFrames))],
-                              means[std::size_t(std::min(last, at + levelFrames))]})
+                    std::max({means[std::size_t(at)], means[std::size_t(std::max<Index>(0, at - levelHalfFrames))],
+                              means[std::size_t(std::min(last, at + levelHalfFrames))]})
                     / floorAt(at));
             return result;
         }
@@ -173,7 +164,7 @@ namespace {
             if (level == Level::OfDesign)
                 return m_model.likelihood;
             if (level == Level::Own)
-                return likelihoodAt(m_model.likelihood.kind(), std::min(seen.levels[std::size_t(at)], levelLimitRatio));
+                return likelihoodAt(m_model.likelihood.kind(), std::min(seen.levels[std::size_t(at)], keyedLevelRatio));
             return likelihoodAt(m_fades ? LikelihoodKind::Exponential : m_model.likelihood.kind(),
                                 m_expected[std::size_t(at)]);
         }
@@ -229,7 +220,7 @@ namespace {
             for (Index at = 0; at < m_strip.frameCount(); ++at) {
                 const double level = seen.levels[std::size_t(at)];
                 const auto half =
-                    Index(std::clamp(singleFrameLevelRatio / std::max(level, 0.1), 1.0, positionLimitFrames));
+                    Index(std::clamp(singleFrameLevelRatio / std::max(level, 0.1), 1.0, positionHalfFrames));
                 std::array<double, 2 * parabolaReachBins + 1> power{};
                 for (Index other = std::max<Index>(0, at - half);
                      other <= std::min(m_strip.frameCount() - 1, at + half); ++other)

@@ -2,6 +2,7 @@
 
 #include "recursion/jointPaths.h"
 #include "refine/atFrame.h"
+#include "refine/constants.h"
 #include "refine/pathStrips.h"
 
 #include <algorithm>
@@ -11,15 +12,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr double nearCells = 3.0;
-    constexpr double apartCells = 1.5;             ///< from there on, two paths are not the flanks of one line
-    constexpr double onCells = 1.0;                ///< within which a measured position lies on a path
-    constexpr double jointDesignLevelRatio = 4.0;  ///< of the evidence for either path
-    constexpr double jointMinimumLevelRatio = 2.0; ///< 3 dB
-    constexpr double jointLevelRatioLimit = 4.0;   ///< of levels, 6 dB
-    constexpr double pieceShare = 0.8;             ///< of a track's frames on the paths
-    constexpr Index togetherSlopeLengths = 4;      ///< of slopeFrames
 
     struct FramesTogether {
         Index from = 0;
@@ -72,7 +64,7 @@ namespace {
             return a.low < b.high + near() && b.low < a.high + near();
         }
 
-        double near() const { return nearCells * m_binsPerCell; }
+        double near() const { return meetingCells * m_binsPerCell; }
 
         /// The longest run of frames in which two tracks are near, with gaps of up to slopeFrames.
         FramesTogether besideEachOther(std::size_t i, std::size_t j) const
@@ -108,7 +100,7 @@ namespace {
         {
             const double a = levelOf(m_tracks[i], frames);
             const double b = levelOf(m_tracks[j], frames);
-            return std::min(a, b) >= jointMinimumLevelRatio && std::max(a, b) <= jointLevelRatioLimit * std::min(a, b);
+            return std::min(a, b) >= leastJointLevelRatio && std::max(a, b) <= comparableLevelRatio * std::min(a, b);
         }
 
         /// Whether no third track comes near. Tracks on one of the two or between them do not count: they are pieces.
@@ -124,8 +116,8 @@ namespace {
                     const double b = positionAt(m_tracks[j], frame);
                     const double at = positionAt(track, frame);
                     if (at > std::min(a, b) - near() && at < std::max(a, b) + near()
-                        && (at < std::min(a, b) - onCells * m_binsPerCell
-                            || at > std::max(a, b) + onCells * m_binsPerCell))
+                        && (at < std::min(a, b) - onPathCells * m_binsPerCell
+                            || at > std::max(a, b) + onPathCells * m_binsPerCell))
                         return false;
                 }
             }
@@ -152,13 +144,13 @@ namespace {
         {
             PathStrip strip;
             strip.firstFrame = frames.from;
-            strip.halfWidth = Index(std::ceil(nearCells * m_binsPerCell));
+            strip.halfWidth = Index(std::ceil(meetingCells * m_binsPerCell));
             strip.centres = centresOf(i, j, frames);
             readStrips(m_analysis, std::span(&strip, 1), context, "deciding between close signals");
             closeBeyondTheAxis(strip);
             const Likelihood likelihood(m_analysis.model.likelihood.kind(), jointDesignLevelRatio);
             auto paths =
-                jointPaths(std::move(strip), likelihood, Index(std::lround(apartCells * m_binsPerCell)), context);
+                jointPaths(std::move(strip), likelihood, Index(std::lround(pathsApartCells * m_binsPerCell)), context);
             const auto apart = [&](std::size_t path, std::size_t track, Index frame) {
                 return std::abs(double(paths[path][std::size_t(frame - frames.from)])
                                 - positionAt(m_tracks[track], frame));
@@ -216,7 +208,7 @@ namespace {
         const Track *trackOn(Index cell, Index frame) const
         {
             const Track *nearest = nullptr;
-            double least = onCells * m_binsPerCell;
+            double least = onPathCells * m_binsPerCell;
             for (const Track &track : m_tracks)
                 if (!track.points.empty() && isThere(track, frame))
                     if (const double apart = std::abs(positionAt(track, frame) - double(cell)); apart <= least) {
@@ -277,7 +269,7 @@ namespace {
                 const Index at = track.points[point].frame - frames.from;
                 return at >= 0 && at < frames.count() && std::ranges::any_of(paths, [&](const auto &path) {
                            const double apart = double(path[std::size_t(at)]) - track.smoothed[point].position;
-                           return std::abs(apart) <= onCells * m_binsPerCell;
+                           return std::abs(apart) <= onPathCells * m_binsPerCell;
                        });
             };
             for (std::size_t other = 0; other < m_tracks.size(); ++other) {
@@ -287,7 +279,7 @@ namespace {
                 Index on = 0;
                 for (std::size_t point = 0; point < track.points.size(); ++point)
                     on += isOn(track, point) ? 1 : 0;
-                if (double(on) >= pieceShare * double(track.points.size())) {
+                if (double(on) >= followedShare * double(track.points.size())) {
                     track.points.clear();
                     track.smoothed.clear();
                 }

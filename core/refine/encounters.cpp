@@ -2,6 +2,7 @@
 
 #include "refine/PolynomialFit.h"
 #include "refine/atFrame.h"
+#include "refine/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +11,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr std::size_t runMinimumPoints = 4; ///< points
-    constexpr double approachInEndNears = 1.5;  ///< of endNear: from there on, an end beside a track was an approach
 
     /// Frames from … to, inclusive.
     struct Frames {
@@ -55,7 +53,7 @@ namespace {
             std::size_t to = from;
             while (to < marks.size() && marks[to] == marks[from])
                 ++to;
-            if (!marks[from] && to - from >= runMinimumPoints)
+            if (!marks[from] && to - from >= fewestRunPoints)
                 runs.push_back({from, to});
             from = to;
         }

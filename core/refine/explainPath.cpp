@@ -1,5 +1,7 @@
 #include "refine/explainPath.h"
 
+#include "refine/constants.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,11 +10,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr double levelCells = 0.75;    ///< distance on either side within which a signal's own maximum lies
-    constexpr float rareNoisePower = 7.0f; ///< probability on noise 1/1000
-    constexpr double notchCells = 1.0;     ///< distance on either side within which a subtracted line leaves less
-                                           ///< than noise
 
     /// Power beside the path in units of its level, the lower of both sides, decreasing outward, as far as it is
     /// significant. Nearer than `nearest` it is constant.
@@ -52,7 +49,7 @@ namespace {
 
 ExplainedSignal explainPath(const PathStrip &strip, const BothWays &seen, Index from, Index to, double binsPerCell)
 {
-    const auto near = Index(std::floor(levelCells * binsPerCell));
+    const auto near = Index(std::floor(ownPowerCells * binsPerCell));
     ExplainedSignal signal;
     signal.firstFrame = strip.firstFrame + from;
     for (Index at = from; at < to; ++at) {
@@ -72,7 +69,7 @@ ExplainedSignal explainPath(const PathStrip &strip, const BothWays &seen, Index 
 
 std::vector<ExplainedSignal> explainSubtracted(const PathStrip &strip, double binsPerCell)
 {
-    const auto near = Index(std::floor(levelCells * binsPerCell));
+    const auto near = Index(std::floor(ownPowerCells * binsPerCell));
     ExplainedSignal rest;
     rest.firstFrame = strip.firstFrame;
     for (Index at = 0; at < strip.frameCount(); ++at) {

@@ -3,6 +3,7 @@
 #include "frames/FrameStream.h"
 #include "plan/chain.h"
 #include "plan/sureStatistic.h"
+#include "refine/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,17 +11,6 @@
 #include <limits>
 
 namespace faintline {
-
-namespace {
-
-    constexpr Index pieceFrames = 64;              ///< frames
-    constexpr double leakageEntriesPerCell = 16.0; ///< entries of the leakage table
-    constexpr double explainedPowerFactor = 2.0;
-    constexpr double negligiblePowerRatio = 0.02; ///< relative to the noise
-    constexpr double leakageCells = 4096.0;
-    constexpr double steadyCells = 0.1; ///< per frame
-
-} // namespace
 
 Explanations::Explanations(Index cells, const std::function<double(double)> &bound,
                            const std::function<double(double)> &exact)
@@ -38,7 +28,8 @@ bool Explanations::isSharp(const ExplainedSignal &signal, std::size_t at)
     const std::size_t before = at > 0 ? at - 1 : 0;
     const std::size_t after = std::min(at + 1, signal.positions.size() - 1);
     return !signal.skirts.empty()
-           && std::abs(signal.positions[after] - signal.positions[before]) <= steadyCells * double(after - before);
+           && std::abs(signal.positions[after] - signal.positions[before])
+                  <= steadyCellsPerFrame * double(after - before);
 }
 
 std::span<const float> Explanations::skirtAt(const ExplainedSignal &signal, std::size_t at) const
@@ -59,16 +50,16 @@ double Explanations::reachAt(const ExplainedSignal &signal, std::size_t at) cons
 
 void Explanations::add(ExplainedSignal signal)
 {
-    const auto last = std::size_t(signal.endFrame() / pieceFrames); // including the frame after it
+    const auto last = std::size_t(signal.endFrame() / explainedBlockFrames); // including the frame after it
     if (m_byTime.size() <= last)
         m_byTime.resize(last + 1);
-    for (auto i = std::size_t(std::max<Index>(0, signal.firstFrame - 1) / pieceFrames); i <= last; ++i) {
-        const Index begin = Index(i) * pieceFrames - signal.firstFrame;
+    for (auto i = std::size_t(std::max<Index>(0, signal.firstFrame - 1) / explainedBlockFrames); i <= last; ++i) {
+        const Index begin = Index(i) * explainedBlockFrames - signal.firstFrame;
         const Index end = std::ssize(signal.positions) - 1;
         Entry entry{m_signals.size(), std::numeric_limits<double>::infinity(),
                     -std::numeric_limits<double>::infinity()};
-        for (Index at = std::clamp<Index>(begin, 0, end); at <= std::clamp<Index>(begin + pieceFrames - 1, 0, end);
-             ++at) {
+        for (Index at = std::clamp<Index>(begin, 0, end);
+             at <= std::clamp<Index>(begin + explainedBlockFrames - 1, 0, end); ++at) {
             const auto number = std::size_t(at);
             const double reach = reachAt(signal, number);
             entry.lowest = std::min(entry.lowest, signal.positions[number] - reach);
@@ -82,7 +73,7 @@ void Explanations::add(ExplainedSignal signal)
 template <class Take>
 void Explanations::forEachAt(Index frame, Index firstCell, Index count, Take take) const
 {
-    const auto number = std::size_t(frame / pieceFrames);
+    const auto number = std::size_t(frame / explainedBlockFrames);
     if (number >= m_byTime.size())
         return;
     for (const Entry &entry : m_byTime[number]) {
@@ -153,10 +144,6 @@ std::vector<Explanations::RaisedStretch> Explanations::stretches() const
 
 namespace {
 
-    constexpr double hidingNatsPerFrame = 0.05; ///< nat per frame
-    constexpr double raisedFloorRatio = 1.5;    ///< floor from which on a cell may have been hidden from the first run
-    constexpr double hiddenShareLimit = 0.5;    ///< of a track's points that lie near such cells
-
     /// y at which λ has a value; λ increases with y.
     double powerOf(const Likelihood &likelihood, double lambda)
     {
@@ -226,7 +213,7 @@ std::vector<Track> searchBehind(const Analysis &analysis, const Explanations &ex
     const auto reach = Index(std::ceil(analysis.frames->geometry().binsPerCell));
     const double sure = sureStatistic(analysis);
     std::erase_if(found, [&](const Track &track) {
-        return track.peakStatistic < sure || hiddenShare(track, explanations, reach) < hiddenShareLimit;
+        return track.peakStatistic < sure || hiddenShare(track, explanations, reach) < hiddenPointsShare;
     });
     return found;
 }

@@ -1,5 +1,7 @@
 #include "refine/familyGhosts.h"
 
+#include "refine/constants.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -7,9 +9,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr double ghostStatisticFactor = 1.5; ///< times the statistic that coinciding members explain
-    constexpr Index comparedFrames = 64;         ///< sampled from the time common to both tracks
 
     class Members
     {

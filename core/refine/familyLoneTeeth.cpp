@@ -3,6 +3,7 @@
 #include "frames/Window.h"
 #include "frames/familyMembers.h"
 #include "refine/bothWays.h"
+#include "refine/constants.h"
 #include "refine/pathStrips.h"
 
 #include <algorithm>
@@ -13,10 +14,6 @@ namespace faintline {
 
 namespace {
 
-    constexpr double toleratedFamilyProbability = 0.01; ///< share of strong lines that noise may turn into a family
-    constexpr Index testedFrames = 65536;               ///< frames of a track
-    constexpr double memberFloorFactor = 2.0;           ///< as in refine/explanation.h
-    constexpr double lineHalfWidthCells = 1.0;          ///< resolution cells that a line occupies
     constexpr std::size_t blockBytes = std::size_t(1) << 20;
     constexpr std::size_t batchBytes = std::size_t(16) << 20;
     constexpr float missingValue = std::numeric_limits<float>::quiet_NaN();
@@ -186,7 +183,7 @@ namespace {
         {
             const double cells = double(std::abs(bin - line.bin)) / m_model.binsPerCell;
             const double leakage = leakageBound(m_geometry.window, cells);
-            return float(1.0 + memberFloorFactor * double(line.power - 1.0f) * leakage);
+            return float(1.0 + explainedPowerFactor * double(line.power - 1.0f) * leakage);
         }
 
         /// The score that noise in all members but this one reaches once per hundred strong lines in this member.
@@ -197,7 +194,7 @@ namespace {
             const double perBin = isHarmonic ? cellsPerBin / m_family.members[member] : 1.0;
             const double cells = double(strip.width()) + 2.0 * lineHalfWidthCells * m_model.binsPerCell * perBin;
             const double chances = double(m_family.members.size()) * cells * double(strip.frameCount());
-            return m_analysis.calibration->thresholdForEventRate(toleratedFamilyProbability / chances);
+            return m_analysis.calibration->thresholdForEventRate(chanceFamilyProbability / chances);
         }
 
         const Analysis &m_analysis;

@@ -1,6 +1,7 @@
 #include "refine/levelBeside.h"
 
 #include "noise/levels.h"
+#include "refine/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,15 +13,6 @@ namespace faintline {
 
 namespace {
 
-    constexpr double nearestCells = 2.5; ///< beyond the main lobe of any window
-    constexpr double besideCells = 7.0;
-    constexpr Index besideReachFrames[] = {6, 24, 72}; ///< frames, on either side
-    constexpr Index valuesPerReach = 6;  ///< values per reach: the level is evaluated at this fraction of it
-    constexpr double besideShare = 0.35; ///< of the values, below the quantile: lines may occupy the rest
-    constexpr double chanceDeviations = 1.5;
-    constexpr double framesPerWindow = 2.0; ///< more frames add hardly any information
-    constexpr std::size_t areaMinimumValues = 8;
-
     /// Bins beside a path, nearest to farthest or the other way round.
     struct Side {
         Index from;
@@ -29,13 +21,13 @@ namespace {
 
     double quantileOfNoise()
     {
-        return -std::log1p(-besideShare);
+        return -std::log1p(-besideQuantile);
     }
 
     /// Relative scatter of the quantile of `count` independent values.
     double scatterOf(double count)
     {
-        return std::sqrt(besideShare / (1.0 - besideShare) / count) / quantileOfNoise();
+        return std::sqrt(besideQuantile / (1.0 - besideQuantile) / count) / quantileOfNoise();
     }
 
     /// Level of one side, or of both.
@@ -55,7 +47,7 @@ namespace {
     {
     public:
         Surroundings(const PathStrip &strip, double binsPerCell)
-            : m_strip(strip), m_binsPerCell(binsPerCell), m_near(Index(std::ceil(nearestCells * binsPerCell))),
+            : m_strip(strip), m_binsPerCell(binsPerCell), m_near(Index(std::ceil(besideFromCells * binsPerCell))),
               m_far(levelBesideHalfWidth(binsPerCell))
         {
         }
@@ -79,12 +71,12 @@ namespace {
                     if (const float y = m_strip.valueAt(frame, m_strip.centres[std::size_t(frame)] + bin);
                         !std::isnan(y))
                         m_values.push_back(y);
-            if (m_values.size() < areaMinimumValues)
+            if (m_values.size() < fewestAreaValues)
                 return {1.0, 0.0};
             const auto count = double(m_values.size());
-            const auto quantile = m_values.begin() + std::ptrdiff_t(besideShare * count);
+            const auto quantile = m_values.begin() + std::ptrdiff_t(besideQuantile * count);
             std::nth_element(m_values.begin(), quantile, m_values.end());
-            return {double(*quantile) / quantileOfNoise(), count / (framesPerWindow * m_binsPerCell)};
+            return {double(*quantile) / quantileOfNoise(), count / (informativeFramesPerWindow * m_binsPerCell)};
         }
 
         const PathStrip &m_strip;
@@ -102,10 +94,6 @@ namespace {
             moved += std::abs(positions[i] - positions[i - 2]) / double(positions.size() - 2);
         return moved;
     }
-
-    constexpr Index areaSampledFrames = 256; ///< of a piece of time
-    constexpr double mainLobeCells = 1.5;
-    constexpr double flankCells = 2.0;
 
     /// Levels of areas at a distance from a path.
     class AreaSearch
@@ -163,7 +151,7 @@ namespace {
                         m_values.push_back(y);
                 }
             }
-            if (m_values.size() < areaMinimumValues)
+            if (m_values.size() < fewestAreaValues)
                 return 0.0;
             const std::size_t lower = m_values.size() / 2;
             const auto median = m_values.begin() + std::ptrdiff_t(lower - 1);
@@ -196,7 +184,7 @@ namespace {
 
 Index levelBesideHalfWidth(double binsPerCell)
 {
-    return Index(std::ceil(besideCells * binsPerCell));
+    return Index(std::ceil(besideToCells * binsPerCell));
 }
 
 PathStrip withoutLine(PathStrip strip, const std::vector<double> &positions, const std::vector<double> &levels,
@@ -231,31 +219,24 @@ std::vector<double> levelBeside(const PathStrip &strip, double binsPerCell)
 std::vector<double> areaLevels(const PathStrip &strip, const std::vector<double> &positions, double binsPerCell,
                                double cellLikeness)
 {
-    const double near = mainLobeCells * binsPerCell + movedInWindow(positions);
+    const double near = flankFromCells * binsPerCell + movedInWindow(positions);
     const auto bins = [&](double cells) { return Index(std::lround(cells * binsPerCell)); };
     std::vector<double> levels(positions.size(), 1.0);
     AreaSearch search(strip, positions, binsPerCell * cellLikeness);
     for (const auto &[isBelow, isAbove] : {std::pair{true, false}, std::pair{false, true}, std::pair{true, true}})
-        search.raise(levels, bins(nearestCells), bins(besideCells), isBelow, isAbove);
+        search.raise(levels, bins(besideFromCells), bins(besideToCells), isBelow, isAbove);
     search.raise(levels, Index(std::ceil(near)), Index(std::floor(near + flankCells * binsPerCell)), true, true);
     return levels;
 }
 
 namespace {
 
-    constexpr Index longestRun = 32;            ///< as long as those of NoiseSample
-    constexpr double medianDeviations = 0.6745; ///< of the magnitude of a normal value
-    constexpr double shapeError = 2.33;         ///< times √N, relative: twice that of such a median
-    constexpr double pairsLikeness = 1.5;       ///< pairs that count as one, because each shares a mean with the next
-    constexpr double fewestPairs = 4.0;
-    constexpr Index fewestMeans = 6; ///< one after the other: onset and end of a signal beside are two of five changes
-
     /// |ln(b/a)| of successive means over `length` frames, in the bins beside a path.
     std::vector<float> changesBeside(const PathStrip &strip, const std::vector<double> &positions, Index length,
                                      double binsPerCell)
     {
-        const auto near = Index(std::lround(nearestCells * binsPerCell + movedInWindow(positions)));
-        const auto far = Index(std::lround(besideCells * binsPerCell + movedInWindow(positions)));
+        const auto near = Index(std::lround(besideFromCells * binsPerCell + movedInWindow(positions)));
+        const auto far = Index(std::lround(besideToCells * binsPerCell + movedInWindow(positions)));
         std::vector<float> changes;
         for (Index bin = -far; bin <= far; ++bin) {
             double before = std::numeric_limits<double>::quiet_NaN();
@@ -277,9 +258,9 @@ double runsBeside(const PathStrip &strip, const std::vector<double> &positions, 
                   double cellLikeness, double overlap)
 {
     double runs = 1.0;
-    for (Index length = 2; length <= std::min({n, longestRun, strip.frameCount() / fewestMeans}); length *= 2) {
+    for (Index length = 2; length <= std::min({n, longestRunFrames, strip.frameCount() / fewestMeans}); length *= 2) {
         std::vector<float> changes = changesBeside(strip, positions, length, binsPerCell);
-        const double pairs = double(changes.size()) / (pairsLikeness * binsPerCell * cellLikeness);
+        const double pairs = double(changes.size()) / (pairsAlike * binsPerCell * cellLikeness);
         if (pairs < fewestPairs)
             break;
         const double deviation = double(medianOf(changes)) / medianDeviations;

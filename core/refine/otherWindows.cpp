@@ -4,6 +4,7 @@
 #include "frames/observed.h"
 #include "plan/Analysis.h"
 #include "plan/sureStatistic.h"
+#include "refine/constants.h"
 #include "refine/levelBeside.h"
 #include "refine/numberByDetection.h"
 #include "refine/ownNoiseLaw.h"
@@ -24,9 +25,6 @@ namespace faintline {
 
 namespace {
 
-    constexpr double ownCells = 0.75; ///< on either side of a signal, where its largest power lies: ½ cell and ½ bin
-    constexpr double followedMinimumShare = 0.8; ///< of a piece's frames
-    constexpr double floorMargin = 2.0;          ///< explained power is constant, not exponential (explanation.h)
     constexpr std::size_t windowStripsBytes = std::size_t(64) << 20; ///< read at a time
 
     const Axis &frequencyOf(const Analysis &analysis)
@@ -415,7 +413,8 @@ namespace {
                 for (std::size_t i = 0; isIn && i < x.count(); ++i) {
                     const double t = x.secondsAt(i);
                     const Band band = curve.between(t - windowHalf(), t + windowHalf());
-                    isIn = band.low - ownCells * cellHz() <= x.hzAt(i) && x.hzAt(i) <= band.high + ownCells * cellHz();
+                    isIn = band.low - ownPowerCells * cellHz() <= x.hzAt(i)
+                           && x.hzAt(i) <= band.high + ownPowerCells * cellHz();
                 }
                 return isIn;
             });
@@ -443,7 +442,7 @@ namespace {
                         std::minmax({x.at(t), x.at(t - 0.5 * windowOf(m_base)), x.at(t + 0.5 * windowOf(m_base))});
                     near += low - cellHz() <= curve.hzAt(i) && curve.hzAt(i) <= high + cellHz() ? 1.0 : 0.0;
                 }
-                if (count > 0.0 && near >= followedMinimumShare * count)
+                if (count > 0.0 && near >= followedShare * count)
                     result.push_back(s);
             }
             return result;
@@ -597,9 +596,9 @@ namespace {
                     continue;
                 const double low = axis.position(band.low);
                 const double high = axis.position(band.high);
-                const Index from = std::max(strip.firstCell(at), Index(std::ceil(low - ownCells * coarser)));
-                const Index to =
-                    std::min(strip.firstCell(at) + strip.width() - 1, Index(std::floor(high + ownCells * coarser)));
+                const Index from = std::max(strip.firstCell(at), Index(std::ceil(low - ownPowerCells * coarser)));
+                const Index to = std::min(strip.firstCell(at) + strip.width() - 1,
+                                          Index(std::floor(high + ownPowerCells * coarser)));
                 float power = 1.0f;
                 for (Index cell = from; cell <= to; ++cell)
                     power = std::fmax(power, strip.valueAt(at, cell));
@@ -607,7 +606,7 @@ namespace {
                     const auto cell = double(strip.firstCell(at) + i);
                     const double distance = std::max({0.0, low - cell, cell - high}) / coarser;
                     floor[std::size_t(at * strip.width() + i)] *=
-                        float(1.0 + floorMargin * double(power - 1.0f) * leakageBound(shape(), distance));
+                        float(1.0 + explainedPowerFactor * double(power - 1.0f) * leakageBound(shape(), distance));
                 }
             }
         }

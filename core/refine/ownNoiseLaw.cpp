@@ -1,6 +1,7 @@
 #include "refine/ownNoiseLaw.h"
 
 #include "noise/levels.h"
+#include "refine/constants.h"
 #include "refine/pathStrips.h"
 #include "refine/secondLook.h"
 
@@ -14,19 +15,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr Index partLimit = 16;
-    constexpr Index fewestCells = 40;         ///< of a part
-    constexpr std::size_t fewestValues = 500; ///< of a part
-    constexpr std::ptrdiff_t quantileMinimumValues = 60;
-    constexpr double likeValues = 4.0; ///< values that count as one, because windows and bins overlap
-    constexpr double sureDeviations = 3.0;
-    constexpr double quantileErrorShare = 0.03;
-    constexpr float tailMinimumSlope = 0.05f;
-    constexpr float runPowerLimit = 5.0f; ///< limit of powers for measuring runs
-    constexpr double runErrorShare = 0.05;
-    constexpr Index runMinimumMeans = 60;
-    constexpr double noiseMinimumShare = 0.5; ///< fraction of a part's cells needed to measure runs
 
     /// Running sums of values.
     struct Scatter {
@@ -66,7 +54,7 @@ OwnNoiseLaw::OwnNoiseLaw(const NormalisedFrames &frames, std::span<const Track> 
                          double overlap, const RunContext &context)
     : m_cells(frames.grid().size())
 {
-    m_parts.resize(std::size_t(std::clamp<Index>(m_cells / fewestCells, 1, partLimit)));
+    m_parts.resize(std::size_t(std::clamp<Index>(m_cells / fewestLawCells, 1, mostLawParts)));
     if (frames.time().count < fewestFrames)
         return;
     const NoiseSample sample(frames, tracks, binsPerCell, context);
@@ -83,26 +71,27 @@ OwnNoiseLaw::OwnNoiseLaw(const NormalisedFrames &frames, std::span<const Track> 
             }
         const std::size_t count = values.size();
         setPowers(m_parts[std::size_t(part)], std::move(values));
-        if (double(count) >= noiseMinimumShare * double(all))
+        if (double(count) >= leastNoiseShare * double(all))
             setRuns(m_parts[std::size_t(part)], sample, cells, overlap);
     }
 }
 
 void OwnNoiseLaw::setPowers(Part &part, std::vector<float> values)
 {
-    if (values.size() < fewestValues)
+    if (values.size() < fewestLawValues)
         return;
     const auto count = double(values.size());
     bool isExponential = true;
     std::vector<float> quantiles{0.0f};
     std::vector<float> worths{0.0f};
     auto end = values.end(); // of those above the quantile before
-    for (std::ptrdiff_t beyond = std::ssize(values) / 2; beyond >= quantileMinimumValues; beyond /= 2) {
+    for (std::ptrdiff_t beyond = std::ssize(values) / 2; beyond >= fewestQuantileValues; beyond /= 2) {
         std::nth_element(values.begin(), values.begin() + beyond, end, std::greater<>());
         end = values.begin() + beyond;
         const float y = values[std::size_t(beyond)];
         const double g = -std::log(double(beyond) / count);
-        const double error = quantileErrorShare * double(y) + sureDeviations * std::sqrt(likeValues / double(beyond));
+        const double error =
+            quantileErrorShare * double(y) + sureLawDeviations * std::sqrt(valuesAlike / double(beyond));
         isExponential = isExponential && double(y) - g < error;
         quantiles.push_back(y);
         worths.push_back(std::min(y, float(g)));
@@ -114,22 +103,22 @@ void OwnNoiseLaw::setPowers(Part &part, std::vector<float> values)
     const std::size_t last = part.y.size() - 1;
     if (last >= 4 && part.y[last] > part.y[last - 3])
         part.slope =
-            std::clamp((part.g[last] - part.g[last - 3]) / (part.y[last] - part.y[last - 3]), tailMinimumSlope, 1.0f);
+            std::clamp((part.g[last] - part.g[last - 3]) / (part.y[last] - part.y[last - 3]), leastTailSlope, 1.0f);
 }
 
 void OwnNoiseLaw::setRuns(Part &part, const NoiseSample &sample, const std::vector<Index> &cells, double overlap)
 {
     const Scatter single = meansOf(sample, cells, 1);
-    if (single.count < Index(fewestValues))
+    if (single.count < Index(fewestLawValues))
         return;
     std::vector<double> runs{1.0};
     for (Index length = 2; length <= NoiseSample::runFrames; length *= 2) {
         const Scatter means = meansOf(sample, cells, length);
         const auto count = double(means.count);
         double ratio = 1.0;
-        if (means.count >= runMinimumMeans)
+        if (means.count >= fewestRunMeans)
             ratio = means.variance() * double(length) / (single.variance() * overlap);
-        const bool isSure = ratio > 1.0 + runErrorShare + sureDeviations * std::sqrt(2.0 * likeValues / count);
+        const bool isSure = ratio > 1.0 + runErrorShare + sureLawDeviations * std::sqrt(2.0 * valuesAlike / count);
         runs.push_back(isSure ? std::max(ratio, runs.back()) : runs.back());
     }
     if (runs.back() > 1.0)
@@ -171,24 +160,12 @@ float OwnNoiseLaw::operator()(Index cell, float y) const
     return std::min(y, part.g[i - 1] + share * (part.g[i] - part.g[i - 1]));
 }
 
-namespace {
-
-    constexpr double sampleLimitValues = 4e6;
-    constexpr double cellsBeside = 4.0; ///< resolution cells, on either side of a track
-    constexpr Index framesBeside = 2;
-    constexpr Index framesBeyond = 10;           ///< beyond its ends
-    constexpr double observedMinimumShare = 0.2; ///< of a bin's frames
-    constexpr double lineMedianRatio = 1.1; ///< median of a bin with a steady line, relative to noise, apart from its
-                                            ///< scatter
-
-} // namespace
-
 NoiseSample::NoiseSample(const NormalisedFrames &frames, std::span<const Track> tracks, double binsPerCell,
                          const RunContext &context)
     : m_cells(frames.grid().size())
 {
     const Index count = frames.time().count;
-    m_distance = runFrames * std::max<Index>(1, Index(std::ceil(double(count) * double(m_cells) / sampleLimitValues)));
+    m_distance = runFrames * std::max<Index>(1, Index(std::ceil(double(count) * double(m_cells) / noiseSampleValues)));
     for (Index first = 0; first < count; first += m_distance) {
         context.checkpoint(double(first) / double(count), "measuring the noise");
         const Index run = std::min(runFrames, count - first);
@@ -200,7 +177,7 @@ NoiseSample::NoiseSample(const NormalisedFrames &frames, std::span<const Track> 
         m_y.begin(), m_y.end(), [](float y) { return !(y > 0.0f); }, std::numeric_limits<float>::quiet_NaN());
     for (const Track &track : tracks)
         if (!track.points.empty())
-            mask(track, Index(std::ceil(cellsBeside * binsPerCell)));
+            mask(track, Index(std::ceil(maskedCells * binsPerCell)));
 }
 
 std::vector<float> NoiseSample::noiseIn(Index cell) const
@@ -210,7 +187,7 @@ std::vector<float> NoiseSample::noiseIn(Index cell) const
         if (const float y = at(row, cell); !std::isnan(y))
             values.push_back(y);
     const auto count = double(values.size());
-    if (values.size() < 2 || count < observedMinimumShare * double(m_rows))
+    if (values.size() < 2 || count < leastObservedShare * double(m_rows))
         return {};
     const double level = double(medianOf(values)) / std::numbers::ln2;
     return level > lineMedianRatio + 4.0 * std::sqrt(2.0 / count) ? std::vector<float>() : values;
@@ -230,9 +207,9 @@ void NoiseSample::mask(const TrackPoint &point, Index before, Index behind, Inde
 void NoiseSample::mask(const Track &track, Index half)
 {
     for (const TrackPoint &point : track.points)
-        mask(point, framesBeside, framesBeside, half);
-    mask(track.points.front(), framesBeyond, 0, half);
-    mask(track.points.back(), 0, framesBeyond, half);
+        mask(point, maskedFrames, maskedFrames, half);
+    mask(track.points.front(), maskedFramesBeyond, 0, half);
+    mask(track.points.back(), 0, maskedFramesBeyond, half);
 }
 
 namespace {

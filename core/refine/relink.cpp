@@ -2,6 +2,7 @@
 
 #include "refine/PolynomialFit.h"
 #include "refine/assign.h"
+#include "refine/constants.h"
 #include "refine/encounters.h"
 
 #include <algorithm>
@@ -14,22 +15,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr double encounterCells = 1.8;
-    constexpr double endNearCells = 3.0;
-    constexpr double joinedSlopeLengths = 0.7; ///< of m
-    constexpr double hidingCells = 2.5;        ///< within which of a track another signal is not to be seen
-    constexpr double farthestCells = 0.5;      ///< deviation up to which the way of a lost track is known
-    constexpr double positionCells = 0.35;
-    constexpr double levelDb = 3.0;
-    constexpr double errorMinimumCells = 0.05;
-    constexpr double ownWayThresholds = 0.9;  ///< largest cost of a track's own way, in T
-    constexpr Index pieceMinimumFrames = 4;   ///< frames
-    constexpr Index gapLimitSlopeLengths = 8; ///< in m
-    constexpr int fitLengthOctaves = 3;       ///< m, 2 m, 4 m
-    constexpr double onTrackCells = 1.0;
-    constexpr double largestLevelRatio = 4.0; ///< 6 dB
-    constexpr Index seenWithinFrames = 12;    ///< frames
 
     /// A stretch of a track between encounters: points from … to, exclusive.
     struct Piece {
@@ -93,9 +78,9 @@ namespace {
             rule.joined = Index(std::lround(joinedSlopeLengths * double(m())));
             rule.widening = m() / 5;
             rule.fitFrames = m() << (fitLengthOctaves - 1);
-            rule.extension = gapLimitSlopeLengths * m();
-            rule.farthest = cells(farthestCells);
-            rule.leastDeviation = cells(errorMinimumCells);
+            rule.extension = gapSlopeLengths * m();
+            rule.farthest = cells(knownWayCells);
+            rule.leastDeviation = cells(leastErrorCells);
             const auto marks = encounters(m_tracks, rule);
             for (std::size_t i = 0; i < m_tracks.size(); ++i) {
                 const std::size_t first = m_pieces.size();
@@ -104,7 +89,7 @@ namespace {
                     while (to < marks[i].size() && marks[i][to] == marks[i][from])
                         ++to;
                     const bool isBetween = from > 0 && to < marks[i].size(); // two encounters
-                    if (!marks[i][from] && Index(to - from) >= (isBetween ? m() / 2 : pieceMinimumFrames))
+                    if (!marks[i][from] && Index(to - from) >= (isBetween ? m() / 2 : fewestPieceFrames))
                         m_pieces.push_back({i, from, to});
                     from = to;
                 }
@@ -131,7 +116,7 @@ namespace {
             double count = 0.0;
             std::optional<PolynomialFit> before;
             for (std::size_t from = 0; from + block <= points.size(); from += block) {
-                const PolynomialFit fit(points.subspan(from, block), Index(from), cells(errorMinimumCells));
+                const PolynomialFit fit(points.subspan(from, block), Index(from), cells(leastErrorCells));
                 const auto middle = [&](std::size_t first) { return double(first) + 0.5 * double(block - 1); };
                 if (before) {
                     const double change = fit.slopeAt(middle(from)) - before->slopeAt(middle(from - block));
@@ -153,12 +138,12 @@ namespace {
         PolynomialFit fitAtEnd(const Piece &piece, Index gap) const
         {
             const std::size_t count = fitLength(piece, gap);
-            return {pointsOf(piece).last(count), endOf(piece) - Index(count) + 1, cells(errorMinimumCells)};
+            return {pointsOf(piece).last(count), endOf(piece) - Index(count) + 1, cells(leastErrorCells)};
         }
 
         PolynomialFit fitAtStart(const Piece &piece, Index gap) const
         {
-            return {pointsOf(piece).first(fitLength(piece, gap)), startOf(piece), cells(errorMinimumCells)};
+            return {pointsOf(piece).first(fitLength(piece, gap)), startOf(piece), cells(leastErrorCells)};
         }
 
         double costOf(const Piece &a, const Piece &b) const
@@ -169,7 +154,7 @@ namespace {
             const double middle = 0.5 * double(endOf(a) + startOf(b));
             const double half = 0.5 * double(gap);
             const double q = std::max(a.slopeVariance, b.slopeVariance);
-            const double least = cells(positionCells) * cells(positionCells);
+            const double least = cells(changedPositionCells) * cells(changedPositionCells);
             const double variance =
                 before.positionVarianceAt(middle) + after.positionVarianceAt(middle) + q * half * half + least;
             const double leastSlope = cells(0.1) / double(m());
@@ -179,7 +164,7 @@ namespace {
             return 0.5
                    * (square(before.positionAt(middle) - after.positionAt(middle)) / variance
                       + std::log(variance / least) + square(before.slopeAt(middle) - after.slopeAt(middle)) / slopes
-                      + square((a.endDb - b.startDb) / levelDb));
+                      + square((a.endDb - b.startDb) / changedLevelDb));
         }
 
         /// The cubic between the ends of two pieces, with their slopes there: one position for each frame of the gap.
@@ -229,7 +214,7 @@ namespace {
                 if (frame < track.points.front().frame || frame > track.points.back().frame)
                     return false;
                 const auto at = std::size_t(frame - track.points.front().frame);
-                return std::abs(track.smoothed[at].position - position) < cells(hidingCells);
+                return std::abs(track.smoothed[at].position - position) < cells(crossingHidesCells);
             });
         }
 
@@ -237,7 +222,7 @@ namespace {
         bool isInReach(const Piece &a, const Piece &b) const
         {
             const Index gap = startOf(b) - endOf(a);
-            return gap >= 1 && gap <= gapLimitSlopeLengths * m()
+            return gap >= 1 && gap <= gapSlopeLengths * m()
                    && std::abs(pointsOf(a).back().position - pointsOf(b).front().position)
                           <= m_steepest * double(gap) + cells(endNearCells);
         }
@@ -331,7 +316,7 @@ namespace {
                 const Piece &a = m_pieces[i];
                 auto at = std::upper_bound(byStart.begin(), byStart.end(), endOf(a),
                                            [this](Index frame, std::size_t b) { return frame < startOf(m_pieces[b]); });
-                for (; at != byStart.end() && startOf(m_pieces[*at]) - endOf(a) <= gapLimitSlopeLengths * m(); ++at) {
+                for (; at != byStart.end() && startOf(m_pieces[*at]) - endOf(a) <= gapSlopeLengths * m(); ++at) {
                     const Piece &b = m_pieces[*at];
                     const bool isOwn = *at == i + 1 && a.track == b.track;
                     if (isOwn || !isInReach(a, b) || areSeenTogether(i, *at))
@@ -490,13 +475,13 @@ namespace {
         const SmoothedPoint *measuredAt(Index frame, double position, double level) const
         {
             const SmoothedPoint *nearest = nullptr;
-            double least = cells(onTrackCells);
+            double least = cells(onPathCells);
             for (const Track &track : m_tracks) {
                 if (track.points.empty() || frame < track.points.front().frame || frame > track.points.back().frame)
                     continue;
                 const SmoothedPoint &point = track.smoothed[std::size_t(frame - track.points.front().frame)];
                 const double apart = std::abs(point.position - position);
-                if (apart <= least && point.presence > 0.5f && double(point.level) <= largestLevelRatio * level) {
+                if (apart <= least && point.presence > 0.5f && double(point.level) <= comparableLevelRatio * level) {
                     least = apart;
                     nearest = &point;
                 }

@@ -3,6 +3,7 @@
 #include "frames/Window.h"
 #include "refine/TrackPiece.h"
 #include "refine/bothWays.h"
+#include "refine/constants.h"
 #include "refine/decideJointly.h"
 #include "refine/explainPath.h"
 #include "refine/explanation.h"
@@ -23,11 +24,6 @@ namespace faintline {
 namespace {
 
     constexpr std::string_view following = "refining tracks in both directions";
-    constexpr Index largestGapFrames = 24;       ///< between stretches of one signal
-    constexpr int behindLimitPasses = 3;         ///< of the search behind what is explained
-    constexpr double hiddenCells = 1.0;          ///< beside a signal
-    constexpr double apartCells = 3.0;           ///< from where on two tracks do not meet (decideJointly.h)
-    constexpr double ghostStatisticShare = 0.08; ///< of a path's statistic, above the floor
 
     struct Stretch {
         Index from;      ///< frames of the piece's strip
@@ -167,9 +163,9 @@ namespace {
         void searchBehindAll()
         {
             bool isMore = !m_tracks.empty();
-            for (int pass = 0; pass < behindLimitPasses && isMore; ++pass) {
+            for (int pass = 0; pass < mostPassesBehind && isMore; ++pass) {
                 const RunContext context =
-                    m_context.part(double(pass) / behindLimitPasses, double(pass + 1) / behindLimitPasses);
+                    m_context.part(double(pass) / mostPassesBehind, double(pass + 1) / mostPassesBehind);
                 const std::size_t known = m_tracks.size();
                 lookAtAll(searchBehind(m_analysis, m_explanations, context.part(0.0, 0.7)), {}, context.part(0.7, 1.0));
                 isMore = m_tracks.size() > known;
@@ -413,7 +409,7 @@ namespace {
         /// its own.
         PathStrip withoutOthers(const PathStrip &strip, const Track &track) const
         {
-            const Index beside = Index(std::ceil(apartCells * m_model.binsPerCell));
+            const Index beside = Index(std::ceil(meetingCells * m_model.binsPerCell));
             struct Meeting {
                 double own = 0.0;
                 double other = 0.0;
@@ -523,7 +519,7 @@ namespace {
                 const auto i = std::size_t(at);
                 if (present[i] <= least)
                     continue;
-                if (stretches.empty() || at - stretches.back().to > largestGapFrames)
+                if (stretches.empty() || at - stretches.back().to > pauseFrames)
                     stretches.push_back({at, at, 0.0, 0.0});
                 stretches.back().to = at + 1;
                 stretches.back().evidence += seen.gains[i];

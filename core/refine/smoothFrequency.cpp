@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "base/Field.h"
+#include "refine/constants.h"
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
@@ -14,10 +15,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr double usualFrames = 32.0; ///< period that is halved
-    constexpr double shortestPeriodFrames = 2.0;
-    constexpr double mostFrames = 4096.0;
 
     /// Frequencies and weights of a track's frames.
     struct Samples {
@@ -96,11 +93,11 @@ namespace {
 FrequencyCurve smoothFrequency(const AnalysisPlan &plan, const Track &track, double smoothingSeconds)
 {
     const Axis &time = plan.time();
-    const double period = smoothingSeconds == 0.0 ? usualFrames : smoothingSeconds / time.step;
-    if (!(period >= shortestPeriodFrames && period <= mostFrames))
+    const double period = smoothingSeconds == 0.0 ? smoothedFrames : smoothingSeconds / time.step;
+    if (!(period >= shortestPeriodFrames && period <= mostSmoothedFrames))
         throw Error("smoothing over " + formatNumber(smoothingSeconds) + " s",
                     "must last 2 to 4096 frames, " + formatNumber(shortestPeriodFrames * time.step) + " … "
-                        + formatNumber(mostFrames * time.step) + " s");
+                        + formatNumber(mostSmoothedFrames * time.step) + " s");
     const double stiffness = std::pow(2.0 * std::sin(std::numbers::pi / period), -4);
     const Eigen::VectorXd hz = whittaker(samplesOf(track, plan.grid().axes.back()), stiffness);
     const auto beyond = Index(std::lround(0.5 * std::min(period, double(hz.size()))));

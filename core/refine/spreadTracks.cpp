@@ -1,6 +1,7 @@
 #include "refine/spreadTracks.h"
 
 #include "plan/sureStatistic.h"
+#include "refine/constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +9,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr double lineBandCells = 2.2;             ///< of a line's band at 0 dB or more
-    constexpr double strongLevelRatio = 4.0;          ///< 6 dB
-    constexpr double stayingMinimumProbability = 0.8; ///< h(0)
-    constexpr Index areaFrames = 25;                  ///< over which a level is averaged (bothWays.h)
 
     bool isSpread(const Track &track, const Analysis &analysis)
     {
@@ -37,7 +33,7 @@ namespace {
             const Index first = track.points[*from].frame;
             Area area{first, first, cells - 1, 0, 0.0};
             auto to = from;
-            for (; to != present.end() && track.points[*to].frame < first + areaFrames; ++to) {
+            for (; to != present.end() && track.points[*to].frame < first + spreadAreaFrames; ++to) {
                 const SmoothedPoint &point = track.smoothed[*to];
                 area.lastFrame = track.points[*to].frame;
                 area.firstCell = std::min(area.firstCell, std::clamp<Index>(std::lround(point.low), 0, cells - 1));
@@ -55,7 +51,7 @@ namespace {
 void moveSpreadTracks(Analysis &analysis)
 {
     if (!analysis.settings.family.isNone()
-        || analysis.model.space.axes().front().rateChange.front() < stayingMinimumProbability)
+        || analysis.model.space.axes().front().rateChange.front() < slowLawProbability)
         return;
     const auto spread = std::stable_partition(analysis.tracks.begin(), analysis.tracks.end(),
                                               [&](const Track &track) { return !isSpread(track, analysis); });

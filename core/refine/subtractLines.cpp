@@ -3,6 +3,7 @@
 #include "base/Field.h"
 #include "base/logmath.h"
 #include "noise/SurrogateRecording.h"
+#include "refine/constants.h"
 #include "refine/smoothFrequency.h"
 
 #include <algorithm>
@@ -13,9 +14,6 @@
 namespace faintline {
 
 namespace {
-
-    constexpr double endWindows = 4.0;
-    constexpr double smoothedWindows = 4.0; ///< variations of this period are halved, in windows
 
     double meanLevel(const Track &track)
     {
@@ -38,9 +36,9 @@ namespace {
     LinePath pathOf(const AnalysisPlan &plan, const Track &track)
     {
         const double window = plan.frames->geometry().windowSeconds;
-        const auto endFrames = Index(std::lround(endWindows * window / plan.time().step));
+        const auto endFrames = Index(std::lround(subtractedEndWindows * window / plan.time().step));
         const auto secondsAt = [&](const TrackPoint &point) { return plan.time().value(double(point.frame)); };
-        return {smoothFrequency(plan, middleOf(track, endFrames), smoothedWindows * window),
+        return {smoothFrequency(plan, middleOf(track, endFrames), subtractedSmoothWindows * window),
                 secondsAt(track.points.front()), secondsAt(track.points.back()), window};
     }
 
