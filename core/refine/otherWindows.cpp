@@ -135,7 +135,8 @@ namespace {
                > visibility(than, std::sqrt(movement2(x, than, 2)));
     }
 
-    /// A track of another window in the frames of this one, interpolated between its points.
+    /// A track of another window in the frames of this one: interpolated between its points, or where several of these lie
+    /// in the time from frame to frame, their means, over equal times before and after the frame.
     Track inFramesOf(const Analysis &own, const Analysis &other, const Track &track)
     {
         const double shift = own.threshold - other.threshold;
@@ -151,6 +152,7 @@ namespace {
         result.confirmFrame = track.confirmFrame < 0 ? -1 : frameOf(track.confirmFrame);
         result.peakStatistic += shift;
         result.detectStatistic += shift;
+        const double half = 0.5 * own.time().step / other.time().step; // of the time to the next frame, in points
         for (Index frame = result.onsetFrame; frame <= result.endFrame; ++frame) {
             const double place = other.time().position(own.time().value(double(frame)));
             const double at =
@@ -158,8 +160,16 @@ namespace {
             const auto i = std::size_t(at);
             const std::size_t next = std::min(i + 1, track.points.size() - 1);
             const auto mix = [&](double a, double b) { return std::lerp(a, b, at - double(i)); };
+            const double reach = std::min({half, at, double(track.points.size() - 1) - at});
+            const auto first = track.smoothed.begin() + Index(std::ceil(at - reach));
+            const auto end = track.smoothed.begin() + Index(std::floor(at + reach)) + 1;
             const auto between = [&](auto value) {
-                return mix(double(track.smoothed[i].*value), double(track.smoothed[next].*value));
+                if (end - first < 2)
+                    return mix(double(track.smoothed[i].*value), double(track.smoothed[next].*value));
+                return std::accumulate(
+                           first, end, 0.0,
+                           [&](double sum, const SmoothedPoint &point) { return sum + double(point.*value); })
+                       / double(end - first);
             };
             const double position = std::clamp(here(between(&SmoothedPoint::position)), 0.0, double(axis.count - 1));
             const double statistic = mix(track.points[i].statistic, track.points[next].statistic);

@@ -82,6 +82,7 @@ private slots:
     void oneInAHumHasToBeSureOverIt();
     void aGlideBesideLinesThatStandStillIsFound();
     void oneThatWandersBesideLinesThatStandStillIsFound();
+    void whatMovesWithinAFrameIsReportedInTheMean();
     void strongLinesThatStandStillStay();
     void shorterWindowsAreTriedForWhatIsTooFast();
     void partsBetweenWhichLittleIsLostAreOneTrack();
@@ -223,6 +224,28 @@ void tst_otherWindows::oneThatWandersBesideLinesThatStandStillIsFound()
              qPrintable(QString::number(found.front().position.front())));
     QVERIFY(std::abs(found.front().onsetSeconds - 10.0) < 2.0 && std::abs(found.front().endSeconds - 22.0) < 2.0);
     QCOMPARE(analysis->tracks.size(), std::size_t(7));
+}
+
+/// The frames of the chosen window are several times as far apart as the line's movements last.
+void tst_otherWindows::whatMovesWithinAFrameIsReportedInTheMean()
+{
+    LineScene lines = scene(4000.0, 32.0, 5);
+    for (int i = 0; i < 6; ++i)
+        lines.lines.push_back(line(100.0 + 100.0 * i, 0.0, 0.0, 32.0, 8.0, 0.2));
+    lines.lines.push_back(line(1300.0, 0.0, 4.0, 24.0, 14.0, 0.2));
+    lines.lines.back().wanderHz = 5.0;
+    lines.lines.back().wanderSeconds = 0.2;
+    const auto analysis = analysed(lines);
+    double square = 0.0;
+    double count = 0.0;
+    for (const Track &track : analysis->tracks)
+        for (const SmoothedPoint &point : track.smoothed)
+            if (const double hz = analysis->grid().axes.back().value(point.position); hz > 1000.0) {
+                square += (hz - 1300.0) * (hz - 1300.0);
+                count += 1.0;
+            }
+    QVERIFY(count > 10.0 && analysis->time().step > 0.9);
+    QVERIFY2(std::sqrt(square / count) < 4.5, qPrintable(QString::number(std::sqrt(square / count))));
 }
 
 /// Every window has them, and the short ones for longer: before the middle of the first long frame, behind the last one's.
