@@ -68,7 +68,7 @@ PingLayerPlane::PingLayerPlane(PingMap &map, PingViewports &viewports, QObject *
     connect(&viewports.map(), &Viewport::spanChanged, this, &LayerPlane::spanChanged);
     connect(&viewports, &PingViewports::placeChanged, this, &LayerPlane::cursorChanged);
     connect(&viewports, &PingViewports::planeChanged, this, &LayerPlane::cursorChanged);
-    connect(&map, &PingMap::polarChanged, this, &LayerPlane::shapeChanged);
+    connect(&map.plane()->display(), &PictureDisplay::projectionChanged, this, &LayerPlane::shapeChanged);
 }
 
 LayerPart PingLayerPlane::window(const Analysis &analysis) const

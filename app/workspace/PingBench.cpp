@@ -431,8 +431,7 @@ void PingBench::setPolar(bool isPolar)
 {
     if (isPolar && m_document.analysis() && isInUse() && !isPolarPossible())
         return;
-    m_input->setPolar(isPolar);
-    m_output->setPolar(isPolar);
+    m_document.display().setPolar(isPolar);
 }
 
 // ---- session -------------------------------------------------------------------------------------------------------
@@ -453,7 +452,7 @@ ViewState PingBench::viewState() const
             view.isSliced = m_isSliced;
         }
     }
-    view.isPolar = m_output->isPolar();
+    view.isPolar = m_document.display().isPolar();
     view.colourMap = m_document.display().colourMap().name();
     return view;
 }

@@ -51,12 +51,14 @@ void PingBench::linkBar()
     connect(m_bar, &PingBar::stepRequested, this, &PingBench::stepFrames);
     connect(m_bar, &PingBar::playClicked, this, [this] { setPlaying(!player().isPlaying()); });
     connect(m_bar, &PingBar::backwardClicked, this, [this] { setPlayingBackward(!player().isPlaying()); });
-    for (PingMap *map : {m_input, m_output}) {
-        connect(m_bar, &PingBar::inhibitionToggled, map, &PingMap::setInhibitionShown);
-        connect(m_bar, &PingBar::conventionalToggled, map, &PingMap::setConventionalShown);
-    }
+    PictureDisplay *display = &m_document.display();
+    connect(m_bar, &PingBar::inhibitionToggled, this,
+            [display](bool isOn) { display->setLayer(PictureDisplay::InhibitionLayer, isOn); });
+    connect(m_bar, &PingBar::conventionalToggled, this,
+            [display](bool isOn) { display->setLayer(PictureDisplay::ConventionalLayer, isOn); });
     connect(m_bar, &PingBar::polarToggled, this, &PingBench::setPolar);
-    connect(m_output, &PingMap::polarChanged, m_bar, &PingBar::setPolar);
+    connect(display, &PictureDisplay::projectionChanged, m_bar,
+            [this, display] { m_bar->setPolar(display->isPolar()); });
 }
 
 void PingBench::linkAxes()
@@ -71,8 +73,6 @@ void PingBench::linkAxes()
 void PingBench::linkViews()
 {
     for (PingMap *map : {m_input, m_output}) {
-        PingMap *other = map == m_input ? m_output : m_input;
-        connect(map, &PingMap::polarChanged, other, &PingMap::setPolar);
         connect(map, &PingMap::hovered, this, &PingBench::read);
         whenInUse(map, &PingMap::hoverEnded, &PingBench::readCursor);
     }

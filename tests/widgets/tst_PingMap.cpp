@@ -213,7 +213,7 @@ private slots:
     {
         ShownMap shown;
         PingMap &map = shown.map;
-        QSignalSpy changed(&map, &PingMap::polarChanged);
+        QSignalSpy changed(&map.plane()->display(), &PictureDisplay::projectionChanged);
         QTest::keyClick(map.plane(), Qt::Key_P);
         QVERIFY(map.isPolar());
         QCOMPARE(changed.count(), 1);
@@ -228,7 +228,7 @@ private slots:
     {
         ShownMap shown;
         const Viewport &viewport = shown.viewport;
-        shown.map.setPolar(true);
+        shown.map.plane()->display().setPolar(true);
         QCoreApplication::processEvents();
         PolarView &polar = *shown.map.polar();
         const QPointF at = polar.positionOf({1250.0, 225.0});
@@ -278,7 +278,7 @@ private slots:
         PingMap &map = shown.map;
         const PingMarks marks = pingMarks(sixPings(), {track(1, {{20, 6}, {24, 7}, {28, 0}, {32, 1}})}, {}, 3);
         for (const bool isPolar : {false, true}) {
-            map.setPolar(isPolar);
+            map.plane()->display().setPolar(isPolar);
             map.setMarks({});
             const QImage without = map.grab().toImage();
             map.setMarks(marks);

@@ -42,6 +42,8 @@ PingMap::PingMap(const QString &heading, Viewport &viewport, PictureDisplay *dis
     connect(m_polar, &PolarView::hovered, this, &PingMap::hovered);
     connect(m_plane, &WaterfallView::hoverEnded, this, &PingMap::hoverEnded);
     connect(m_polar, &PolarView::hoverEnded, this, &PingMap::hoverEnded);
+    connect(&m_plane->display(), &PictureDisplay::projectionChanged, this, &PingMap::followProjection);
+    followProjection();
     follow();
 }
 
@@ -106,34 +108,17 @@ int PingMap::trackAt(const PingMarks::Place &place) const
     return nearest;
 }
 
-void PingMap::setInhibitionShown(bool isShown)
-{
-    for (int i = 0; i < 2; ++i)
-        overlays(i)->hasBoxes = isShown;
-    follow();
-}
-
-void PingMap::setConventionalShown(bool isShown)
-{
-    for (int i = 0; i < 2; ++i)
-        overlays(i)->hasConventional = isShown;
-    follow();
-}
-
 void PingMap::setColourBarShown(bool isShown)
 {
     m_bar->setVisible(isShown);
 }
 
-void PingMap::setPolar(bool polar)
+void PingMap::followProjection()
 {
-    if (polar == isPolar())
-        return;
     const bool hadFocus = m_pages->currentWidget()->hasFocus();
-    m_pages->setCurrentWidget(polar ? static_cast<QWidget *>(m_polar) : m_plane);
+    m_pages->setCurrentWidget(m_plane->display().isPolar() ? static_cast<QWidget *>(m_polar) : m_plane);
     if (hadFocus)
         m_pages->currentWidget()->setFocus();
-    emit polarChanged(polar);
 }
 
 void PingMap::follow()
@@ -142,6 +127,10 @@ void PingMap::follow()
     m_overlay->hasTracks = display.shows(PictureDisplay::TrackLayer);
     m_overlay->hasTruth = display.shows(PictureDisplay::TruthLayer);
     m_overlay->hasEvents = display.shows(PictureDisplay::EventLayer);
+    for (int i = 0; i < 2; ++i) {
+        overlays(i)->hasBoxes = display.shows(PictureDisplay::InhibitionLayer);
+        overlays(i)->hasConventional = display.shows(PictureDisplay::ConventionalLayer);
+    }
     // The plane has its own crosshair.
     const auto &cursor = m_viewport.cursor();
     m_polar->overlay().cursor = cursor && display.shows(PictureDisplay::CursorLayer)
@@ -162,7 +151,7 @@ void PingMap::changeEvent(QEvent *event)
 void PingMap::keyPressEvent(QKeyEvent *event)
 {
     if (event->key() == Qt::Key_P && !(event->modifiers() & ~Qt::ShiftModifier))
-        return setPolar(!isPolar());
+        return m_plane->display().setPolar(!isPolar());
     QWidget::keyPressEvent(event);
 }
 

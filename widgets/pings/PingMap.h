@@ -41,13 +41,7 @@ public:
     /// Whether the colour bar is shown.
     void setColourBarShown(bool isShown);
 
-public slots:
-    void setPolar(bool isPolar);
-    void setInhibitionShown(bool isShown);
-    void setConventionalShown(bool isShown); ///< tracks of the conventional detector
-
 signals:
-    void polarChanged(bool isPolar);
     void hovered(double range, double bearing);
     void hoverEnded();
 
@@ -57,6 +51,7 @@ protected:
 
 private:
     void follow();
+    void followProjection();
     PingOverlayItem *overlays(int i) const;
 
     Viewport &m_viewport;

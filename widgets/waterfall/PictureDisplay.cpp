@@ -37,4 +37,10 @@ void PictureDisplay::setSidebandSpacing(double hz)
         emit linesChanged();
 }
 
+void PictureDisplay::setPolar(bool isOn)
+{
+    if (std::exchange(m_isPolar, isOn) != isOn)
+        emit projectionChanged();
+}
+
 } // namespace faintline
