@@ -6,17 +6,26 @@
 
 namespace faintline {
 
+/// Calls `act`, which may throw Error; `object` then emits the signal failed(error).
+template <class Object, class Act>
+void actOrReport(Object &object, Act act)
+{
+    try {
+        act();
+    } catch (const Error &error) {
+        emit object.failed(error);
+    }
+}
+
 /// Calls `write`, which writes a file to `path` and may throw Error, and has `writer` emit the outcome: the signal
 /// written(path) or failed(error).
 template <class Writer, class Write>
 void writeAndReport(Writer &writer, const QString &path, Write write)
 {
-    try {
+    actOrReport(writer, [&] {
         write();
         emit writer.written(path);
-    } catch (const Error &error) {
-        emit writer.failed(error);
-    }
+    });
 }
 
 } // namespace faintline

@@ -58,22 +58,26 @@ void EventFiles::importFrom(const QString &path)
     emit told(fileLabel(path), words);
 }
 
+bool EventFiles::isFinal()
+{
+    const auto &analysis = m_document.analysis();
+    if (analysis && analysis->calibration->isFirstEstimate)
+        emit failed(firstEstimateError());
+    return analysis && !analysis->calibration->isFirstEstimate;
+}
+
 void EventFiles::exportTo(const QString &path)
 {
-    if (!m_document.analysis())
+    if (!isFinal())
         return;
-    if (m_document.analysis()->calibration->isFirstEstimate)
-        return emit failed(firstEstimateError());
     writeReviewed(*m_document.analysis(), m_document.shownEvents(), m_document.annotations(), pathBytes(path));
     writeProvenance(path, false);
 }
 
 void EventFiles::annotateRecording()
 {
-    if (!m_document.analysis())
+    if (!isFinal())
         return;
-    if (m_document.analysis()->calibration->isFirstEstimate)
-        return emit failed(firstEstimateError());
     const int count = faintline::annotateRecording(
         m_document.source().path,
         reviewedSigmf(*m_document.analysis(), m_document.shownEvents(), m_document.annotations()));
@@ -95,10 +99,8 @@ bool EventFiles::wantsToAnnotate(const QString &path)
 
 void EventFiles::exportTracksTo(const QString &path)
 {
-    if (!m_document.analysis())
+    if (!isFinal())
         return;
-    if (m_document.analysis()->calibration->isFirstEstimate)
-        return emit failed(firstEstimateError());
     writeTracksOf(m_document.shownEvents(), *m_document.analysis(), pathBytes(path));
     writeProvenance(path, true);
 }
@@ -125,13 +127,8 @@ void EventFiles::askForImport()
     const QString path =
         QFileDialog::getOpenFileName(m_window, tr("Import annotations"), QFileInfo(m_document.sourcePath()).path(),
                                      tr("Annotations (*.txt *.sigmf-meta *.csv *.json);;All files (*)"));
-    if (path.isEmpty())
-        return;
-    try {
-        importFrom(path);
-    } catch (const Error &error) {
-        emit failed(error);
-    }
+    if (!path.isEmpty())
+        actOrReport(*this, [&] { importFrom(path); });
 }
 
 void EventFiles::askForExport()
@@ -141,13 +138,8 @@ void EventFiles::askForExport()
         nameBeside(m_document.sourcePath(), QStringLiteral("-events.csv")),
         tr("Table (*.csv);;JSON (*.json);;Raven selection table (*.selections.txt);;Audacity labels (*.txt);;SigMF "
            "annotations (*.sigmf-meta)"));
-    if (path.isEmpty())
-        return;
-    try {
-        wantsToAnnotate(path) ? annotateRecording() : exportTo(path);
-    } catch (const Error &error) {
-        emit failed(error);
-    }
+    if (!path.isEmpty())
+        actOrReport(*this, [&] { wantsToAnnotate(path) ? annotateRecording() : exportTo(path); });
 }
 
 void EventFiles::askForTracks()
@@ -155,13 +147,8 @@ void EventFiles::askForTracks()
     const QString path = QFileDialog::getSaveFileName(
         m_window, tr("Export tracks"), nameBeside(m_document.sourcePath(), QStringLiteral("-tracks.csv")),
         tr("Table (*.csv);;JSON (*.json)"));
-    if (path.isEmpty())
-        return;
-    try {
-        exportTracksTo(path);
-    } catch (const Error &error) {
-        emit failed(error);
-    }
+    if (!path.isEmpty())
+        actOrReport(*this, [&] { exportTracksTo(path); });
 }
 
 } // namespace faintline

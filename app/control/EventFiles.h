@@ -45,6 +45,8 @@ signals:
     void told(const QString &where, const QString &what);
 
 private:
+    /// Whether there is an analysis and its threshold is final, with which alone it can be made again; says if not.
+    bool isFinal();
     void add(const QString &text, const QKeySequence &key, const QString &tip, void (EventFiles::*act)());
     void askForImport();
     void askForExport();

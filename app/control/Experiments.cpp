@@ -11,6 +11,15 @@ namespace {
 
     constexpr int announceInterval = 150; // ms
 
+    Experiments::Entry doneEntry(const QString &name)
+    {
+        Experiments::Entry entry;
+        entry.name = name;
+        entry.state = Experiments::State::Done;
+        entry.progress = 1.0;
+        return entry;
+    }
+
 } // namespace
 
 Experiments::Experiments(QObject *parent) : QObject(parent)
@@ -56,20 +65,14 @@ int Experiments::start(const Reproducible &reproducible, const ReproduceOptions 
 
 int Experiments::add(const QString &name, Campaign campaign)
 {
-    Entry entry;
-    entry.name = name;
-    entry.state = State::Done;
-    entry.progress = 1.0;
+    Entry entry = doneEntry(name);
     entry.campaign = std::move(campaign);
     return append(std::move(entry));
 }
 
 int Experiments::add(const QString &name, std::vector<CurvePoint> curve)
 {
-    Entry entry;
-    entry.name = name;
-    entry.state = State::Done;
-    entry.progress = 1.0;
+    Entry entry = doneEntry(name);
     entry.imported = std::move(curve);
     return append(std::move(entry));
 }

@@ -1,6 +1,7 @@
 #include "app/panels/ExperimentsPanel.h"
 
 #include "app/base/filePath.h"
+#include "app/base/writeAndReport.h"
 #include "app/document/Provenance.h"
 #include "base/files/fileName.h"
 #include "base/json.h"
@@ -210,13 +211,8 @@ void ExperimentsPanel::exportTo(int id, const QString &path) const
 void ExperimentsPanel::chooseImport()
 {
     const QString path = QFileDialog::getOpenFileName(this, tr("Import a campaign or a curve"));
-    if (path.isEmpty())
-        return;
-    try {
-        emit showRequested(importFile(path));
-    } catch (const Error &error) {
-        emit failed(error);
-    }
+    if (!path.isEmpty())
+        actOrReport(*this, [&] { emit showRequested(importFile(path)); });
 }
 
 void ExperimentsPanel::chooseExport()
@@ -226,13 +222,8 @@ void ExperimentsPanel::chooseExport()
                              ? QFileDialog::getExistingDirectory(this, tr("Folder for tables and pictures"))
                              : QFileDialog::getSaveFileName(this, tr("Export"), QStringLiteral("curve.csv"),
                                                             tr("Curve (*.csv);;Runs of the campaign (*.jsonl)"));
-    if (path.isEmpty())
-        return;
-    try {
-        exportTo(entry->id, path);
-    } catch (const Error &error) {
-        emit failed(error);
-    }
+    if (!path.isEmpty())
+        actOrReport(*this, [&] { exportTo(entry->id, path); });
 }
 
 } // namespace faintline

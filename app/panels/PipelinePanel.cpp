@@ -1,6 +1,7 @@
 #include "app/panels/PipelinePanel.h"
 
 #include "analyse/chooseWindow.h"
+#include "app/base/writeAndReport.h"
 #include "app/control/AnalysisController.h"
 #include "app/document/OwnPresets.h"
 #include "noise/NoiseNormaliser.h"
@@ -167,13 +168,8 @@ void PipelinePanel::savePreset()
     bool isGiven = false;
     const QString name =
         QInputDialog::getText(this, tr("Save settings as preset"), tr("Name:"), QLineEdit::Normal, {}, &isGiven);
-    if (!isGiven)
-        return;
-    try {
-        m_ownPresets.save(name.trimmed(), m_document.settings());
-    } catch (const Error &error) {
-        emit failed(error);
-    }
+    if (isGiven)
+        actOrReport(*this, [&] { m_ownPresets.save(name.trimmed(), m_document.settings()); });
 }
 
 void PipelinePanel::removePreset()

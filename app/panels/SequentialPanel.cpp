@@ -1,5 +1,6 @@
 #include "app/panels/SequentialPanel.h"
 
+#include "app/base/writeAndReport.h"
 #include "app/document/Document.h"
 #include "app/panels/SequentialControls.h"
 #include "app/panels/TrajectoryPage.h"
@@ -227,11 +228,7 @@ void SequentialPanel::startOnSelection()
     selection.frameCount = time.nearest(visible.time.high - 0.5 * time.step) - selection.firstFrame + 1;
     selection.firstCell = frequency.nearest(visible.frequency.low + 0.5 * frequency.step);
     selection.cellCount = frequency.nearest(visible.frequency.high - 0.5 * frequency.step) - selection.firstCell + 1;
-    try {
-        m_tests.start(selection, form().value().sprt);
-    } catch (const Error &error) {
-        emit failed(error);
-    }
+    actOrReport(*this, [&] { m_tests.start(selection, form().value().sprt); });
 }
 
 void SequentialPanel::restart()

@@ -1,6 +1,7 @@
 #include "app/panels/SurveyPanel.h"
 
 #include "app/base/filePath.h"
+#include "app/base/writeAndReport.h"
 #include "widgets/base/labelText.h"
 #include "widgets/table/ColumnTable.h"
 
@@ -125,11 +126,7 @@ void SurveyPanel::followSelection()
 
 void SurveyPanel::judge(Verdict verdict)
 {
-    try {
-        m_model->judge(m_table->selectedSourceRows(), verdict);
-    } catch (const Error &error) {
-        emit failed(error);
-    }
+    actOrReport(*this, [&] { m_model->judge(m_table->selectedSourceRows(), verdict); });
 }
 
 void SurveyPanel::activate(const QModelIndex &index)

@@ -1,5 +1,6 @@
 #include "app/panels/SweepPanel.h"
 
+#include "app/base/writeAndReport.h"
 #include "app/document/Document.h"
 #include "app/panels/StartColumn.h"
 #include "app/panels/SweepForm.h"
@@ -93,12 +94,10 @@ std::optional<Experiment> SweepPanel::ofForm() const
 
 void SweepPanel::start()
 {
-    try {
+    actOrReport(*this, [this] {
         const Experiment sweep = m_form->experiment();
         show(m_experiments.start(m_form->name(), sweep, m_form->isInRecording() ? m_document.recording() : nullptr));
-    } catch (const Error &error) {
-        emit failed(error);
-    }
+    });
 }
 
 void SweepPanel::cancel()

@@ -1,6 +1,7 @@
 #include "app/panels/TargetsPanel.h"
 
 #include "app/base/filePath.h"
+#include "app/base/writeAndReport.h"
 #include "app/panels/TargetModel.h"
 #include "base/files/AtomicFile.h"
 #include "widgets/base/Theme.h"
@@ -239,14 +240,8 @@ void TargetsPanel::chooseFile()
     const QString beside = nameBeside(m_document.sourcePath(), QStringLiteral("-scene.json"));
     const QString path = pathOf(
         QFileDialog::getSaveFileUrl(this, tr("Save the scene"), QUrl::fromLocalFile(beside), tr("Scenes (*.json)")));
-    if (path.isEmpty())
-        return;
-    try {
-        save(path);
-        emit written(path);
-    } catch (const Error &error) {
-        emit failed(error);
-    }
+    if (!path.isEmpty())
+        writeAndReport(*this, path, [&] { save(path); });
 }
 
 /// Keys that the table takes from the window's shortcuts: what begins a number, and those of editing.
