@@ -127,7 +127,8 @@ private slots:
         QCOMPARE(draw.label(1.5).text(), QString("1.5"));
         draw.setScaleDiv(timeScaleDiv({0.0, 7200.0}, 4));
         QCOMPARE(draw.label(3600.0).text(), QString("3600"));
-        draw.setClock(true);
+        draw.setTimes({0.0, 7211.0}, {});
+        QCOMPARE(draw.title(), "Time (h:min:s)");
         QVERIFY(draw.label(3600.0).text().contains(':'));
         // As wide as any: a 1 is narrower than other figures.
         QVERIFY(!draw.widestLabel({0.0, 7211.0}).contains('1'));
@@ -140,7 +141,8 @@ private slots:
         const QwtScaleDiv div = timeScaleDiv({0.0, 60.0}, 6, start);
         QCOMPARE(major(div).size(), 6);
         TimeScaleDraw draw;
-        draw.setStartUnixSeconds(start);
+        draw.setTimes({0.0, 60.0}, start);
+        QCOMPARE(draw.title(), "Time (UTC)");
         draw.setScaleDiv(div);
         QCOMPARE(draw.label(major(div).front()).text(), QStringLiteral("22:13:30"));
         QCOMPARE(draw.label(major(div).back()).text(), QStringLiteral("22:14:20"));

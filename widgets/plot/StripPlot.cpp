@@ -2,7 +2,6 @@
 
 #include "widgets/base/CanvasSentence.h"
 #include "widgets/base/Theme.h"
-#include "widgets/base/quantities.h"
 #include "widgets/base/scaleTicks.h"
 #include "widgets/base/steadyAxes.h"
 #include "widgets/plot/CurveKey.h"
@@ -279,12 +278,8 @@ void StripPlot::layAxes()
     const bool hasRight =
         std::any_of(m_series.begin(), m_series.end(), [](const auto &one) { return one->side == axisOf(Side::Right); });
     auto *time = static_cast<TimeScaleDraw *>(axisScaleDraw(QwtAxis::XBottom));
-    const bool isLong = m_viewport && m_viewport->full().time.high > clockFromSeconds;
-    time->setClock(isLong || m_startUnixSeconds);
-    time->setStartUnixSeconds(m_startUnixSeconds);
-    setAxisTitle(QwtAxis::XBottom, m_startUnixSeconds ? tr("Time (UTC)")
-                                   : isLong           ? tr("Time (h:min:s)")
-                                                      : tr("Time (s)"));
+    time->setTimes(m_viewport ? m_viewport->full().time : Span(), m_startUnixSeconds);
+    setAxisTitle(QwtAxis::XBottom, time->title());
     setAxisVisible(QwtAxis::XBottom, !isEmpty && hasTimeLabels());
     setAxisVisible(QwtAxis::YLeft, !isEmpty);
     setAxisVisible(QwtAxis::YRight, hasRight);

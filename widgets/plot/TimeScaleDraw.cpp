@@ -5,9 +5,24 @@
 
 #include <qwt_text.h>
 
+#include <QObject>
+
 #include <cmath>
 
 namespace faintline {
+
+void TimeScaleDraw::setTimes(const Span &whole, std::optional<double> startUnixSeconds)
+{
+    m_isClock = whole.high > clockFromSeconds || startUnixSeconds;
+    m_startUnixSeconds = startUnixSeconds;
+}
+
+QString TimeScaleDraw::title() const
+{
+    return m_startUnixSeconds ? QObject::tr("Time (UTC)")
+           : m_isClock        ? QObject::tr("Time (h:min:s)")
+                              : QObject::tr("Time (s)");
+}
 
 QwtText TimeScaleDraw::label(double seconds) const
 {

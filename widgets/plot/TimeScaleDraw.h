@@ -12,10 +12,10 @@ namespace faintline {
 class TimeScaleDraw : public QwtScaleDraw
 {
 public:
-    void setClock(bool isClock) { m_isClock = isClock; }
+    /// `whole`: all that can be seen. `startUnixSeconds`: of second 0; if given, labels are times of day.
+    void setTimes(const Span &whole, std::optional<double> startUnixSeconds);
     bool isClock() const { return m_isClock; }
-    /// Time of second 0, since 1970; if set, labels are times of day.
-    void setStartUnixSeconds(std::optional<double> start) { m_startUnixSeconds = start; }
+    QString title() const; ///< of the axis: "Time (s)", "Time (h:min:s)", "Time (UTC)"
     QwtText label(double seconds) const override;
 
     /// The longest label of a span, for reserving room so that the canvas does not move while scrolling.

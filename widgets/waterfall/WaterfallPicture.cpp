@@ -276,15 +276,13 @@ void WaterfallPicture::updateContent()
 void WaterfallPicture::restyle()
 {
     const bool isEmpty = !m_picture;
-    const bool isLong = full().time.high > clockFromSeconds;
     m_timeDraw = nullptr;
     m_numberDraw = nullptr;
     if (hasTime()) {
         m_timeDraw = new TimeScaleDraw;
-        m_timeDraw->setClock(isLong || m_startUnixSeconds);
-        m_timeDraw->setStartUnixSeconds(m_startUnixSeconds);
+        m_timeDraw->setTimes(full().time, m_startUnixSeconds);
         setAxisScaleDraw(timeAxis(), m_timeDraw);
-        m_timeTitle = m_startUnixSeconds ? tr("Time (UTC)") : isLong ? tr("Time (h:min:s)") : tr("Time (s)");
+        m_timeTitle = m_timeDraw->title();
     } else {
         m_numberDraw = new NumberScaleDraw;
         setAxisScaleDraw(timeAxis(), m_numberDraw);
