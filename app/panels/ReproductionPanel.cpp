@@ -35,7 +35,7 @@ namespace {
     }
 
     /// The number in "-3 dB" or "σ = 0.5", which orders the cells of a sweep.
-    double numberIn(const QString &text)
+    double sweptNumber(const QString &text)
     {
         static const QRegularExpression number(QStringLiteral("(?:^|= )(-?[0-9.]+(?:e[-+]?[0-9]+)?)"));
         const QRegularExpressionMatch match = number.match(text);
@@ -138,7 +138,7 @@ void ReproductionPanel::fillTable()
         const QString column = QString::fromStdString(cell.column);
         rows.push_back(
             {{QString::fromStdString(cell.row)},
-             {column, numberIn(column)},
+             {column, sweptNumber(column)},
              number(cell.paper),
              number(cell.reference),
              number(cell.ours),
