@@ -36,7 +36,7 @@ LineLayerPlane::LineLayerPlane(WaterfallView &view, Viewport &viewport, QObject 
     connect(&viewport, &Viewport::cursorChanged, this, &LayerPlane::cursorChanged);
 }
 
-LayerPart LineLayerPlane::window(const Analysis &analysis) const
+LayerPart LineLayerPlane::part(const Analysis &analysis) const
 {
     const auto [beginFrame, endFrame] = cellsOf(analysis.time(), m_viewport.time());
     const auto [beginCell, endCell] = cellsOf(analysis.grid().axes.front(), m_viewport.frequency());
@@ -71,7 +71,7 @@ PingLayerPlane::PingLayerPlane(PingMap &map, PingViewports &viewports, QObject *
     connect(&map.plane()->display(), &PictureDisplay::projectionChanged, this, &LayerPlane::shapeChanged);
 }
 
-LayerPart PingLayerPlane::window(const Analysis &analysis) const
+LayerPart PingLayerPlane::part(const Analysis &analysis) const
 {
     const auto [rows, columns] = axes(analysis);
     const Viewport &viewport = m_viewports.map();
@@ -80,17 +80,17 @@ LayerPart PingLayerPlane::window(const Analysis &analysis) const
     const bool isAllRound = viewport.frequency().width() > columns.step * double(columns.count - 1);
     const auto [firstColumn, endColumn] =
         isAllRound ? std::pair(Index(0), columns.count) : cellsOf(columns, viewport.frequency());
-    LayerPart window{firstRow, endRow, firstColumn, endColumn, rows.count, columns.count};
+    LayerPart part{firstRow, endRow, firstColumn, endColumn, rows.count, columns.count};
     if (m_map.isPolar()) {
         const PolarView &polar = *m_map.polar();
         const double perPixel = polar.invTransform(QwtAxis::XBottom, 1.0) - polar.invTransform(QwtAxis::XBottom, 0.0);
-        window.mostRows = std::max<Index>(1, Index(viewport.time().width() / perPixel));
+        part.mostRows = std::max<Index>(1, Index(viewport.time().width() / perPixel));
     } else {
         const QSize size = m_view.canvas()->contentsRect().size();
-        window.mostRows = std::max(1, areRowsVertical() ? size.height() : size.width());
-        window.mostColumns = std::max(1, areRowsVertical() ? size.width() : size.height());
+        part.mostRows = std::max(1, areRowsVertical() ? size.height() : size.width());
+        part.mostColumns = std::max(1, areRowsVertical() ? size.width() : size.height());
     }
-    return window;
+    return part;
 }
 
 std::pair<Axis, Axis> PingLayerPlane::axes(const Analysis &analysis) const

@@ -34,8 +34,8 @@ public:
     virtual const FramePlane &shown() const = 0;
     virtual std::optional<FramePlace> cursor() const = 0;
     /// The visible part, with a resolution limited to its pixels.
-    virtual LayerPart window(const Analysis &analysis) const = 0;
-    /// Rows and columns of that window.
+    virtual LayerPart part(const Analysis &analysis) const = 0;
+    /// Rows and columns of that part.
     virtual std::pair<Axis, Axis> axes(const Analysis &analysis) const = 0;
     virtual void replot() = 0;
 
@@ -63,7 +63,7 @@ public:
     bool isOfOneFrame() const override { return false; }
     const FramePlane &shown() const override { return m_shown; }
     std::optional<FramePlace> cursor() const override { return cursorOf(m_viewport); }
-    LayerPart window(const Analysis &analysis) const override;
+    LayerPart part(const Analysis &analysis) const override;
     std::pair<Axis, Axis> axes(const Analysis &analysis) const override;
     void replot() override;
 
@@ -81,7 +81,7 @@ public:
     bool isOfOneFrame() const override { return true; }
     const FramePlane &shown() const override { return m_viewports.plane(); }
     std::optional<FramePlace> cursor() const override { return cursorOf(m_viewports); }
-    LayerPart window(const Analysis &analysis) const override;
+    LayerPart part(const Analysis &analysis) const override;
     std::pair<Axis, Axis> axes(const Analysis &analysis) const override;
     void replot() override;
 

@@ -216,7 +216,7 @@ void OutputLayers::follow()
         return;
     const auto analysis = m_document.analysis();
     const bool wantsPicture = layer() != OutputLayer::Statistic;
-    const LayerPart wanted = plane().window(*analysis);
+    const LayerPart wanted = plane().part(*analysis);
     const std::optional<Place> cursor = this->cursor();
     const auto job = [this, analysis, cursor, frame = singleFrame(cursor), wantsPicture, wanted,
                       shown = plane().shown(),
