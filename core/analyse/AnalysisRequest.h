@@ -1,11 +1,12 @@
 #pragma once
 
-#include "analyse/PicturesSoFar.h"
 #include "calibrate/CalibrationDepth.h"
 #include "frames/NormalisedFrames.h"
+#include "frames/PeakPyramid.h"
 #include "model/MarkovModel.h"
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -15,6 +16,18 @@ struct Analysis;
 
 /// Called for each block of frames of the statistic, in order: first frame, frames × cells values.
 using StatisticSink = std::function<void(Index firstFrame, std::span<const float> statistic)>;
+
+/// Pictures of a recording while it is still being analysed.
+struct PicturesSoFar {
+    std::shared_ptr<const PeakPyramid> quickLook; ///< y in dB at some times of the whole recording
+    std::shared_ptr<const PeakPyramid> input;     ///< y in dB up to the current frame; null before the chain starts
+    std::shared_ptr<const PeakPyramid> statistic; ///< D in nats, likewise
+    Axis time;                                    ///< of all frames
+    Axis frequency;
+};
+
+/// Called by the computing thread a few times per second. It does not change any result.
+using PictureSink = std::function<void(const PicturesSoFar &)>;
 
 /// Scope of an analysis: everything; its tracks, without pictures and checkpoints; or a trial of its settings, whose
 /// tracks are also not tested against the recording's own noise (ownNoiseLaw.h), which is not searched for signals

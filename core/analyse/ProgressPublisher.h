@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analyse/PicturesSoFar.h"
+#include "analyse/AnalysisRequest.h"
 #include "base/RunContext.h"
 #include "frames/Spectrogram.h"
 #include "noise/NoiseNormaliser.h"

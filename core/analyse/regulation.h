@@ -2,9 +2,13 @@
 
 #include "plan/Analysis.h"
 
+#include <span>
 #include <vector>
 
 namespace faintline {
+
+/// The band of ln K values, one per frame, from settled noise. Precondition: at least two.
+NoiseBand noiseBand(std::span<const double> lnK);
 
 /// Range of ln K of a regulating reset law on settled noise, by simulation on calibrationSubgrid, with the scatter
 /// scaled to the whole. The deviation is 0 if the law regulates nothing.

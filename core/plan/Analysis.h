@@ -10,7 +10,6 @@
 
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace faintline {
@@ -26,9 +25,6 @@ struct NoiseBand {
     double high() const { return mean + 4.0 * deviation; }
     bool contains(double lnK) const { return lnK >= low() && lnK <= high(); }
 };
-
-/// The band of ln K values, one per frame, from settled noise. Precondition: at least two.
-NoiseBand noiseBand(std::span<const double> lnK);
 
 struct SecondView;
 

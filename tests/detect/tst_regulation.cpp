@@ -1,7 +1,7 @@
+#include "analyse/regulation.h"
 #include "base/Random.h"
 #include "detect/Smd.h"
 #include "model/sonarModels.h"
-#include "plan/Analysis.h"
 #include "support/test.h"
 
 #include <algorithm>
