@@ -6,14 +6,14 @@
 
 namespace faintline {
 
-/// Calls `act`, which may throw Error; `object` then emits the signal failed(error).
+/// Calls `act`, which may throw Error; `self` then emits its signal failed(error).
 template <class Object, class Act>
-void actOrReport(Object &object, Act act)
+void actOrReport(Object &self, Act act)
 {
     try {
         act();
     } catch (const Error &error) {
-        emit object.failed(error);
+        emit self.failed(error);
     }
 }
 
