@@ -429,9 +429,16 @@ void PingBench::goToCell(std::size_t axis, Index cell)
 
 void PingBench::setPolar(bool isPolar)
 {
-    if (isPolar && m_document.analysis() && isInUse() && !isPolarPossible())
-        return;
     m_document.display().setPolar(isPolar);
+}
+
+/// Whoever has set it.
+void PingBench::followProjection()
+{
+    PictureDisplay &display = m_document.display();
+    if (display.isPolar() && m_document.analysis() && isInUse() && !isPolarPossible())
+        display.setPolar(false);
+    m_bar->setPolar(display.isPolar());
 }
 
 // ---- session -------------------------------------------------------------------------------------------------------

@@ -96,6 +96,7 @@ private:
     void goToCell(std::size_t axis, Index cell);
     void restoreAxes(const ViewState &view);
     bool isPolarPossible() const;
+    void followProjection();
     void read(double along, double across);
 
     OutputLayers &m_layers;

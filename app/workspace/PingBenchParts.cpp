@@ -57,8 +57,7 @@ void PingBench::linkBar()
     connect(m_bar, &PingBar::conventionalToggled, this,
             [display](bool isOn) { display->setLayer(PictureDisplay::ConventionalLayer, isOn); });
     connect(m_bar, &PingBar::polarToggled, this, &PingBench::setPolar);
-    connect(display, &PictureDisplay::projectionChanged, m_bar,
-            [this, display] { m_bar->setPolar(display->isPolar()); });
+    connect(display, &PictureDisplay::projectionChanged, this, &PingBench::followProjection);
 }
 
 void PingBench::linkAxes()

@@ -238,6 +238,8 @@ private slots:
         QVERIFY(refusal({"range", "range"}).contains("two different axes"));
         bench().setPolar(true); // a Doppler axis has no directions
         QVERIFY(!bench().output()->isPolar());
+        QTest::keyClick(bench().output()->plane(), Qt::Key_P);
+        QVERIFY(!bench().output()->isPolar() && !bench().input()->isPolar());
     }
 
     /// Two axes after four, and spectra after that.
