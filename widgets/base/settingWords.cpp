@@ -51,7 +51,6 @@ QString stageLabel(const QString &prefix)
         {"design", "Design"},
         {"scene", "Scene"},
         {"runs", "Runs"},
-        {"survey", "Sectors"},
     };
     const auto found = labels.constFind(prefix);
     return found != labels.constEnd() ? *found : capitalised(spelled(prefix));
