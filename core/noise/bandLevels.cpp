@@ -112,8 +112,10 @@ namespace {
 
         void collect(std::span<const float> frame, const std::vector<Index> &wanted)
         {
-            for (const Index cell : wanted)
-                m_sample.push_back(frame[std::size_t(cell)] * m_inverse[std::size_t(cell)]);
+            const auto first = Index(m_sample.size());
+            m_sample.resize(m_sample.size() + wanted.size());
+            std::ranges::transform(wanted, m_sample.begin() + first,
+                                   [&](Index cell) { return frame[std::size_t(cell)] * m_inverse[std::size_t(cell)]; });
         }
 
         /// Median of the sample, faster if it is near that value.
@@ -122,13 +124,15 @@ namespace {
             constexpr float nearRatio = 1.1f;
             const float low = expected / nearRatio;
             const float high = expected * nearRatio;
-            m_near.clear();
+            m_near.resize(m_sample.size());
             Index below = 0;
-            for (const float value : m_sample) {
+            Index near = 0;
+            for (const float value : m_sample) { // without branches, which none could foresee
+                m_near[std::size_t(near)] = value;
+                near += value >= low && value < high ? 1 : 0;
                 below += value < low ? 1 : 0;
-                if (value >= low && value < high)
-                    m_near.push_back(value);
             }
+            m_near.resize(std::size_t(near));
             const Index rank = (std::ssize(m_sample) - 1) / 2 - below;
             if (rank < 0 || rank >= std::ssize(m_near))
                 return medianOf(m_sample);
