@@ -57,7 +57,7 @@ void SurveyModel::layColumns()
         {.heading = tr("Recording"),
          .text =
              [this](int i) {
-                 return labelText(storedPath(recordings()[row(i).recording].file.path, pathBytes(path())));
+                 return labelText(storedPath(recordings()[row(i).recording].file.path, pathBytes(path())), longestPath);
              },
          .key = [this](int i) { return double(row(i).recording); },
          .alignment = Qt::AlignLeft},

@@ -28,6 +28,7 @@ SurveyPanel::SurveyPanel(const Document &document, const AnalysisController &con
     m_table->setSmall();
     m_table->horizontalHeader()->setStretchLastSection(true);
     m_table->setColumnWidth(SurveyModel::Recording, 220);
+    m_table->setTextElideMode(Qt::ElideMiddle); // a path ends with the file's name
     m_table->installEventFilter(this);
 
     auto *bottom = new QHBoxLayout;

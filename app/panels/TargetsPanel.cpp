@@ -82,7 +82,6 @@ void TargetsPanel::buildTable()
     constexpr int rowHeight = 22;
     m_table->setSelectionMode(QAbstractItemView::SingleSelection);
     m_table->setTabKeyNavigation(false);
-    m_table->setWordWrap(false);
     m_table->setSmall(rowHeight);
     m_table->setSelectionBehavior(QAbstractItemView::SelectItems);
     m_table->setShowGrid(true);

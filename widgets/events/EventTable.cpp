@@ -96,7 +96,6 @@ void EventTable::setUpTable()
 {
     m_table->setFrameStyle(QFrame::StyledPanel | QFrame::Sunken);
     m_table->setAlternatingRowColors(true);
-    m_table->setWordWrap(false);
     m_table->setTabKeyNavigation(false);
     m_table->setSortingEnabled(true);
     m_table->sortByColumn(EventModel::Onset, Qt::AscendingOrder);

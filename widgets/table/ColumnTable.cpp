@@ -72,6 +72,7 @@ ColumnTable::ColumnTable(const QString &accessibleName, ColumnModel *model, Colu
     copying->setShortcutContext(Qt::WidgetShortcut);
     connect(copying, &QAction::triggered, this, &ColumnTable::copy);
     addAction(copying);
+    setWordWrap(false);
     setContextMenuPolicy(Qt::ActionsContextMenu);
 }
 
