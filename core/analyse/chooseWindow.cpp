@@ -83,8 +83,8 @@ namespace {
         }
 
         /// Results for the other windows, without pictures: those next to T0 and to the chosen one at least, and where
-        /// there are signals half the chosen one. One that moves by two cells there would lose 3 dB of visibility in it
-        /// and in a quarter.
+        /// there are signals half the chosen one, which sees one that moves by two cells there 1.5 dB better than it and
+        /// a quarter of it do.
         std::vector<std::shared_ptr<const Analysis>> others(const Analysis &chosen)
         {
             const double own = windowSecondsOf(chosen) / m_windowSeconds;

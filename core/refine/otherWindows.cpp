@@ -267,6 +267,7 @@ namespace {
         {
             m_other = &other;
             m_model = bothWaysModel(other);
+            m_likeness = other.frames->geometry().likeness();
             if (windowOf(other) < m_shortest) {
                 m_shortest = windowOf(other);
                 m_isTooLong = false;
@@ -656,8 +657,7 @@ namespace {
                 own.push_back(double(point.level));
             }
             const PathStrip beside = withoutLine(strip, positions, own, shape(), m_model.binsPerCell);
-            const std::vector<double> levels =
-                areaLevels(beside, positions, m_model.binsPerCell, m_other->frames->geometry().likeness());
+            const std::vector<double> levels = areaLevels(beside, positions, m_model.binsPerCell, m_likeness);
             for (Index at = 0; at < strip.frameCount(); ++at) {
                 for (float &y : std::span(strip.row(at), std::size_t(strip.width())))
                     y /= float(levels[std::size_t(at)]);
@@ -709,7 +709,8 @@ namespace {
         double m_shortest = std::numeric_limits<double>::infinity(); ///< window of those asked, s
         bool m_isTooLong = false;                                    ///< see AskedWindows, as the next
         std::set<std::size_t> m_betterKnown;
-        BothWaysModel m_model; ///< of the other window
+        BothWaysModel m_model;   ///< of the other window
+        double m_likeness = 1.0; ///< of its cells
         std::unique_ptr<OwnNoiseLaw> m_noise;
     };
 

@@ -44,7 +44,8 @@ struct SecondView {
 ///   2. a track that the detector would not have found over that floor belongs to them and is removed; so is one with
 ///      less than the threshold above the level of its surroundings (levelBeside.h): it was a path through a burst, a
 ///      cloud or a hum, which becomes an area; so is one with less than that when divided by V, by which runs of power
-///      beside it vary more than those of noise (runsBeside): it was a path through speckle, which noise explains;
+///      beside it, along the positions of step 3, vary more than those of noise (runsBeside): it was a path through
+///      speckle, which noise explains;
 ///   3. in cells that are nearer to another track 3 cells or more beside it, with less than half of either's power midway,
 ///      nothing is to be seen; the stretches where the signal is present are kept, joined over up to 24 frames: the one
 ///      in which the path's statistic gained most, and every other whose own evidence reaches the threshold, which is

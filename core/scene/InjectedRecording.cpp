@@ -38,10 +38,7 @@ void InjectedRecording::read(int channel, Index first, Index count, std::span<fl
 
 Truth InjectedRecording::truth() const
 {
-    Truth truth;
-    for (const Tone &tone : m_tones)
-        truth.lines.push_back(tone.truth());
-    return truth;
+    return truthOf(m_tones);
 }
 
 } // namespace faintline

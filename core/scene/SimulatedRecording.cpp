@@ -90,10 +90,7 @@ void SimulatedRecording::read(int, Index first, Index count, std::span<float> ou
 
 Truth SimulatedRecording::truth() const
 {
-    Truth truth;
-    for (const Tone &tone : m_tones)
-        truth.lines.push_back(tone.truth());
-    return truth;
+    return truthOf(m_tones);
 }
 
 NoiseSource::NoiseSource(const NoiseSettings &settings, double sampleRateHz, double durationSeconds, bool isComplex,

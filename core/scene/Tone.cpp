@@ -202,4 +202,12 @@ void Tone::addRun(Index interval, Index first, std::span<float> out) const
     }
 }
 
+Truth truthOf(const std::vector<Tone> &tones)
+{
+    Truth truth;
+    for (const Tone &tone : tones)
+        truth.lines.push_back(tone.truth());
+    return truth;
+}
+
 } // namespace faintline

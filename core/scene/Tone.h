@@ -54,4 +54,7 @@ private:
     std::vector<float> m_dwellAmplitudes; ///< √power of each dwell of a fluctuating line; empty means 1
 };
 
+/// What is known of all tones of a recording.
+Truth truthOf(const std::vector<Tone> &tones);
+
 } // namespace faintline

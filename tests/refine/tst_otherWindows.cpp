@@ -26,6 +26,15 @@ LineScene sweepsBesideAFaintLine(double faintDb)
     return result;
 }
 
+/// Steady lines for which a long window is chosen.
+LineScene sixThatStandStill(int seed)
+{
+    LineScene result = scene(4000.0, 32.0, seed);
+    for (int i = 0; i < 6; ++i)
+        result.lines.push_back(line(100.0 + 100.0 * i, 0.0, 0.0, 32.0, 8.0, 0.2));
+    return result;
+}
+
 std::shared_ptr<const Analysis> analysed(const LineScene &scene, const AnalysisSettings &settings = {},
                                          const Analysis *previous = nullptr)
 {
@@ -82,7 +91,7 @@ private slots:
     void oneInAHumHasToBeSureOverIt();
     void aGlideBesideLinesThatStandStillIsFound();
     void oneThatWandersBesideLinesThatStandStillIsFound();
-    void whatMovesWithinAFrameIsReportedInTheMean();
+    void reportsTheMeanPositionWithinAFrame();
     void strongLinesThatStandStillStay();
     void shorterWindowsAreTriedForWhatIsTooFast();
     void partsBetweenWhichLittleIsLostAreOneTrack();
@@ -192,9 +201,7 @@ void tst_otherWindows::oneInAHumHasToBeSureOverIt()
 /// The chosen window is four times the automatic one; the glide passes 64 of its cells in one.
 void tst_otherWindows::aGlideBesideLinesThatStandStillIsFound()
 {
-    LineScene lines = scene(4000.0, 32.0, 8);
-    for (int i = 0; i < 6; ++i)
-        lines.lines.push_back(line(100.0 + 100.0 * i, 0.0, 0.0, 32.0, 8.0, 0.2));
+    LineScene lines = sixThatStandStill(8);
     lines.lines.push_back(line(900.0, 100.0, 10.0, 8.0, 10.0, 0.05));
     const auto analysis = analysed(lines);
     QVERIFY(analysis->frames->spectrogram()->windowSeconds() > 0.7);
@@ -210,9 +217,7 @@ void tst_otherWindows::aGlideBesideLinesThatStandStillIsFound()
 /// energy there.
 void tst_otherWindows::oneThatWandersBesideLinesThatStandStillIsFound()
 {
-    LineScene lines = scene(4000.0, 32.0, 5);
-    for (int i = 0; i < 6; ++i)
-        lines.lines.push_back(line(100.0 + 100.0 * i, 0.0, 0.0, 32.0, 8.0, 0.2));
+    LineScene lines = sixThatStandStill(5);
     lines.lines.push_back(line(1300.0, 0.0, 10.0, 12.0, 4.0, 0.2));
     lines.lines.back().wanderHz = 2.0;
     lines.lines.back().wanderSeconds = 5.0;
@@ -227,11 +232,9 @@ void tst_otherWindows::oneThatWandersBesideLinesThatStandStillIsFound()
 }
 
 /// The frames of the chosen window are several times as far apart as the line's movements last.
-void tst_otherWindows::whatMovesWithinAFrameIsReportedInTheMean()
+void tst_otherWindows::reportsTheMeanPositionWithinAFrame()
 {
-    LineScene lines = scene(4000.0, 32.0, 5);
-    for (int i = 0; i < 6; ++i)
-        lines.lines.push_back(line(100.0 + 100.0 * i, 0.0, 0.0, 32.0, 8.0, 0.2));
+    LineScene lines = sixThatStandStill(5);
     lines.lines.push_back(line(1300.0, 0.0, 4.0, 24.0, 14.0, 0.2));
     lines.lines.back().wanderHz = 5.0;
     lines.lines.back().wanderSeconds = 0.2;
