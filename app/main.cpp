@@ -1,10 +1,10 @@
 // The window, and its subcommands that draw pictures without a screen.
 
 #include "app/cli/addOpening.h"
-#include "app/render/pictureResults.h"
-#include "app/render/renderCommand.h"
-#include "app/render/replayPicture.h"
-#include "app/render/subcommands.h"
+#include "app/headless/pictureResults.h"
+#include "app/headless/renderCommand.h"
+#include "app/headless/replayPicture.h"
+#include "app/headless/subcommands.h"
 #include "app/window/MainWindow.h"
 #include "app/window/programWindows.h"
 #include "base/files/keepNoHoles.h"

@@ -1,13 +1,13 @@
 #include "app/lessons/lessonMeasures.h"
 
 #include "app/base/VisibilityWatcher.h"
+#include "app/features/evaluate/EvaluatePanel.h"
+#include "app/features/inspect/WhyPanel.h"
+#include "app/features/pictures/PingBench.h"
+#include "app/features/pictures/Workbench.h"
 #include "app/lessons/truthMeasures.h"
-#include "app/panels/EvaluatePanel.h"
-#include "app/panels/WhyPanel.h"
 #include "app/views/WindowParts.h"
 #include "app/views/WindowViews.h"
-#include "app/workspace/PingBench.h"
-#include "app/workspace/Workbench.h"
 #include "base/Error.h"
 #include "noise/NoiseNormaliser.h"
 

@@ -2,11 +2,11 @@
 
 #include "app/base/VisibilityWatcher.h"
 #include "app/base/filePath.h"
+#include "app/features/pictures/Bench.h"
 #include "app/lessons/Lesson.h"
 #include "app/lessons/lessonMeasures.h"
 #include "app/views/WindowParts.h"
 #include "app/views/WindowViews.h"
-#include "app/workspace/Bench.h"
 #include "base/files/AtomicFile.h"
 #include "base/json.h"
 #include "exchange/Session.h"

@@ -1,9 +1,9 @@
 #include "app/views/ReportWriter.h"
 
 #include "app/base/filePath.h"
-#include "app/control/thresholdWords.h"
 #include "app/document/Document.h"
 #include "app/document/Provenance.h"
+#include "app/document/thresholdWords.h"
 #include "app/views/WindowViews.h"
 #include "base/files/AtomicFile.h"
 #include "widgets/base/Theme.h"

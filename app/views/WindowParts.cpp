@@ -1,9 +1,9 @@
 #include "app/views/WindowParts.h"
 
 #include "app/document/scanScenario.h"
-#include "app/panels/ChannelsPanel.h"
-#include "app/workspace/PingBench.h"
-#include "app/workspace/Workbench.h"
+#include "app/features/inspect/ChannelsPanel.h"
+#include "app/features/pictures/PingBench.h"
+#include "app/features/pictures/Workbench.h"
 #include "widgets/events/EventTable.h"
 
 namespace faintline {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "app/control/AnalysisController.h"
-#include "app/control/Comparer.h"
-#include "app/control/Experiments.h"
-#include "app/control/RecordingCheck.h"
-#include "app/control/SequentialTests.h"
+#include "app/document/AnalysisController.h"
 #include "app/document/Document.h"
+#include "app/document/RecordingCheck.h"
+#include "app/features/evaluate/Experiments.h"
+#include "app/features/events/Comparer.h"
+#include "app/features/sequential/SequentialTests.h"
 
 #include <algorithm>
 #include <utility>

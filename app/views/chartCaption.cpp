@@ -1,8 +1,8 @@
 #include "app/views/chartCaption.h"
 
 #include "app/base/tr.h"
-#include "app/panels/differenceWords.h"
-#include "app/panels/experimentWords.h"
+#include "app/features/evaluate/experimentWords.h"
+#include "app/features/events/differenceWords.h"
 #include "widgets/base/settingWords.h"
 
 #include <QCoreApplication>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/control/Experiments.h"
 #include "app/document/Document.h"
+#include "app/features/evaluate/Experiments.h"
 
 #include <QString>
 

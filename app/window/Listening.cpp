@@ -2,12 +2,12 @@
 
 #include "app/base/MessageBar.h"
 #include "app/base/filePath.h"
-#include "app/control/Playback.h"
 #include "app/document/sourceAt.h"
-#include "app/panels/ListenDialog.h"
+#include "app/features/live/ListenDialog.h"
+#include "app/features/live/LiveBar.h"
+#include "app/features/pictures/Playback.h"
+#include "app/features/pictures/Workbench.h"
 #include "app/views/WindowParts.h"
-#include "app/workspace/LiveBar.h"
-#include "app/workspace/Workbench.h"
 
 #include <QDateTime>
 #include <QDir>

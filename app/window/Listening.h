@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/control/LiveRun.h"
+#include "app/features/live/LiveRun.h"
 
 #include <QObject>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/control/AnalysisController.h"
-#include "app/document/recordingFiles.h"
+#include "app/document/AnalysisController.h"
+#include "app/features/opening/recordingFiles.h"
 
 #include <QObject>
 #include <QStringList>

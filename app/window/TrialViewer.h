@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/base/JobRunner.h"
-#include "app/control/Experiments.h"
+#include "app/features/evaluate/Experiments.h"
 #include "evaluate/experiments/showTrial.h"
 
 #include <QObject>

@@ -1,7 +1,7 @@
 #include "app/window/TrialWindow.h"
 
 #include "app/document/statisticUnit.h"
-#include "app/workspace/Workbench.h"
+#include "app/features/pictures/Workbench.h"
 #include "widgets/base/ReadOut.h"
 #include "widgets/base/labelText.h"
 

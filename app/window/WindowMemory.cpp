@@ -1,10 +1,10 @@
 #include "app/window/WindowMemory.h"
 
 #include "app/base/filePath.h"
-#include "app/control/OutputLayers.h"
+#include "app/document/OutputLayers.h"
+#include "app/features/pictures/PingBench.h"
+#include "app/features/pictures/Workbench.h"
 #include "app/views/WindowParts.h"
-#include "app/workspace/PingBench.h"
-#include "app/workspace/Workbench.h"
 
 #include <QFileInfo>
 #include <QMainWindow>

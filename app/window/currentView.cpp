@@ -1,9 +1,9 @@
 #include "app/window/currentView.h"
 
+#include "app/features/opening/WelcomePage.h"
+#include "app/features/pictures/Workbench.h"
 #include "app/views/WindowParts.h"
 #include "app/views/WindowViews.h"
-#include "app/welcome/WelcomePage.h"
-#include "app/workspace/Workbench.h"
 #include "widgets/plot/StripPlot.h"
 
 #include <QApplication>

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "app/features/pictures/PingBench.h"
+#include "app/features/targets/TargetsPanel.h"
+#include "app/features/targets/targetCells.h"
 #include "app/openWindow.h"
-#include "app/panels/TargetsPanel.h"
-#include "app/panels/targetCells.h"
-#include "app/workspace/PingBench.h"
 #include "scene/PingTruth.h"
 #include "support/find.h"
 #include "widgets/pings/PingMap.h"

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "app/features/pictures/Workbench.h"
 #include "app/window/Listening.h"
 #include "app/window/MainWindow.h"
-#include "app/workspace/Workbench.h"
 #include "support/slowdown.h"
 
 #include <QAbstractButton>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "app/features/pictures/PingBench.h"
 #include "app/window/MainWindow.h"
-#include "app/workspace/PingBench.h"
 #include "support/find.h"
 
 namespace faintline::test {

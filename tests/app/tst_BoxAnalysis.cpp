@@ -1,4 +1,4 @@
-#include "app/control/BoxAnalysis.h"
+#include "app/features/pictures/BoxAnalysis.h"
 #include "app/openWindow.h"
 #include "support/test.h"
 

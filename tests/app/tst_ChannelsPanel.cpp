@@ -1,8 +1,8 @@
-#include "app/panels/ChannelsPanel.h"
+#include "app/features/inspect/ChannelsPanel.h"
 #include "support/test.h"
 
+#include "app/features/pictures/Workbench.h"
 #include "app/openWindow.h"
-#include "app/workspace/Workbench.h"
 #include "base/Random.h"
 #include "signal/ArrayRecording.h"
 #include "signal/formats/writeRecording.h"

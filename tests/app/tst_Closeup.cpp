@@ -1,6 +1,6 @@
-#include "app/control/Closeup.h"
+#include "app/features/pictures/Closeup.h"
+#include "app/features/pictures/Workbench.h"
 #include "app/openWindow.h"
-#include "app/workspace/Workbench.h"
 #include "support/test.h"
 
 using namespace faintline;

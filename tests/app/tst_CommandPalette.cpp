@@ -1,6 +1,6 @@
 // Commands found by letters of their names and carried out from the keyboard alone.
 
-#include "app/window/CommandPalette.h"
+#include "app/commands/CommandPalette.h"
 #include "support/test.h"
 
 #include <QLineEdit>

@@ -1,6 +1,6 @@
-#include "app/control/Comparer.h"
+#include "app/features/events/ComparePanel.h"
+#include "app/features/events/Comparer.h"
 #include "app/openWindow.h"
-#include "app/panels/ComparePanel.h"
 #include "support/find.h"
 #include "support/test.h"
 #include "widgets/table/ColumnTable.h"

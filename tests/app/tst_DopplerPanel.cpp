@@ -1,6 +1,6 @@
+#include "app/features/events/DopplerPanel.h"
+#include "app/features/events/chosenEvents.h"
 #include "app/openWindow.h"
-#include "app/panels/DopplerPanel.h"
-#include "app/panels/chosenEvents.h"
 #include "base/Random.h"
 #include "base/json.h"
 #include "support/find.h"

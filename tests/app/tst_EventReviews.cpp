@@ -1,12 +1,12 @@
 // Events are judged in the window: what changes is seen, can be undone, and comes back with the session.
 
-#include "app/control/EventReviews.h"
+#include "app/features/events/EventReviews.h"
 #include "support/test.h"
 
 #include "app/base/filePath.h"
-#include "app/control/EventFiles.h"
+#include "app/features/events/EventFiles.h"
+#include "app/features/pictures/Workbench.h"
 #include "app/openWindow.h"
-#include "app/workspace/Workbench.h"
 #include "exchange/Session.h"
 #include "exchange/readAnnotations.h"
 #include "exchange/writeEvents.h"

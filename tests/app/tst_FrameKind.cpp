@@ -1,8 +1,8 @@
 #include "app/document/FrameKind.h"
 #include "support/test.h"
 
-#include "app/control/FramePlace.h"
 #include "app/document/Document.h"
+#include "app/document/FramePlace.h"
 
 using namespace faintline;
 

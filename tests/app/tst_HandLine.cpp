@@ -1,9 +1,9 @@
 // A line drawn by hand: points by mouse and by key, its evidence beside the detector's, and nothing given away before
 // it is revealed.
 
+#include "app/features/events/HandLinePanel.h"
+#include "app/features/pictures/Workbench.h"
 #include "app/openWindow.h"
-#include "app/panels/HandLinePanel.h"
-#include "app/workspace/Workbench.h"
 #include "support/find.h"
 #include "support/test.h"
 #include "widgets/base/quantities.h"

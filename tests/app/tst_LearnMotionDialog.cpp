@@ -1,5 +1,5 @@
+#include "app/features/settings/LearnMotionDialog.h"
 #include "app/openWindow.h"
-#include "app/panels/LearnMotionDialog.h"
 #include "support/test.h"
 
 #include <QAction>

@@ -2,9 +2,9 @@
 
 #include "app/Feeder.h"
 #include "app/base/MessageBar.h"
-#include "app/panels/ListenDialog.h"
-#include "app/workspace/LiveBar.h"
-#include "app/workspace/Workbench.h"
+#include "app/features/live/ListenDialog.h"
+#include "app/features/live/LiveBar.h"
+#include "app/features/pictures/Workbench.h"
 #include "exchange/writeEvents.h"
 #include "plan/slopeUnit.h"
 #include "support/find.h"

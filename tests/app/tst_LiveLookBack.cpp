@@ -1,8 +1,8 @@
 // Looking back at a live run while it goes on.
 
 #include "app/Feeder.h"
-#include "app/panels/WhyPanel.h"
-#include "app/workspace/Workbench.h"
+#include "app/features/inspect/WhyPanel.h"
+#include "app/features/pictures/Workbench.h"
 #include "support/test.h"
 
 #include <algorithm>

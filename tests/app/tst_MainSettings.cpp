@@ -1,9 +1,9 @@
 // The five settings that are changed first, below the threshold of a narrow window.
 
+#include "app/features/settings/MainSettings.h"
+#include "app/features/settings/PipelinePanel.h"
+#include "app/features/settings/ThresholdPanel.h"
 #include "app/openWindow.h"
-#include "app/panels/MainSettings.h"
-#include "app/panels/PipelinePanel.h"
-#include "app/panels/ThresholdPanel.h"
 #include "app/window/Panels.h"
 #include "support/test.h"
 #include "widgets/forms/SettingRow.h"

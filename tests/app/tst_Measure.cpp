@@ -1,7 +1,7 @@
 // Measuring in the window with keys and mouse: a box's area SNR, sidebands in both pictures, the peak.
 
+#include "app/features/pictures/Workbench.h"
 #include "app/openWindow.h"
-#include "app/workspace/Workbench.h"
 #include "support/find.h"
 #include "support/test.h"
 #include "widgets/waterfall/OverlayItem.h"

@@ -1,6 +1,6 @@
+#include "app/features/inspect/InfoPanel.h"
+#include "app/features/inspect/NoiseCheck.h"
 #include "app/openWindow.h"
-#include "app/panels/InfoPanel.h"
-#include "app/panels/NoiseCheck.h"
 #include "support/find.h"
 #include "support/test.h"
 #include "widgets/plot/ExceedancePlot.h"

@@ -1,6 +1,6 @@
-#include "app/document/OwnPresets.h"
+#include "app/features/settings/OwnPresets.h"
+#include "app/features/settings/PipelinePanel.h"
 #include "app/openWindow.h"
-#include "app/panels/PipelinePanel.h"
 #include "support/test.h"
 
 #include <QApplication>

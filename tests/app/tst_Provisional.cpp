@@ -1,5 +1,5 @@
+#include "app/features/pictures/Workbench.h"
 #include "app/openWindow.h"
-#include "app/workspace/Workbench.h"
 #include "support/test.h"
 
 #include <QLabel>

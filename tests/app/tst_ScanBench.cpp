@@ -1,11 +1,11 @@
 // A radar's scans on four axes in the window: two axes shown, the others by maximum or slice.
 
-#include "app/control/OutputLayers.h"
+#include "app/document/OutputLayers.h"
+#include "app/features/pictures/AxesBar.h"
+#include "app/features/pictures/PingBench.h"
+#include "app/features/pictures/Workbench.h"
 #include "app/openWindow.h"
 #include "app/ping.h"
-#include "app/workspace/AxesBar.h"
-#include "app/workspace/PingBench.h"
-#include "app/workspace/Workbench.h"
 #include "exchange/Session.h"
 #include "frames/pictureCuts.h"
 #include "inspect/outputLayers.h"

@@ -1,6 +1,6 @@
+#include "app/features/inspect/SpectrumPanel.h"
+#include "app/features/pictures/Workbench.h"
 #include "app/openWindow.h"
-#include "app/panels/SpectrumPanel.h"
-#include "app/workspace/Workbench.h"
 #include "support/test.h"
 #include "widgets/plot/ChartPlot.h"
 #include "widgets/waterfall/WaterfallView.h"

@@ -1,11 +1,11 @@
 // The states of a line's frames, the law by which they follow each other, and what else the detector says of its
 // output.
 
-#include "app/control/OutputLayers.h"
+#include "app/document/OutputLayers.h"
+#include "app/features/inspect/LawPanel.h"
+#include "app/features/inspect/StateSlicePanel.h"
+#include "app/features/pictures/Workbench.h"
 #include "app/openWindow.h"
-#include "app/panels/LawPanel.h"
-#include "app/panels/StateSlicePanel.h"
-#include "app/workspace/Workbench.h"
 #include "support/find.h"
 #include "support/test.h"
 #include "widgets/plot/LawPlot.h"

@@ -1,5 +1,5 @@
+#include "app/features/events/StraightenDialog.h"
 #include "app/openWindow.h"
-#include "app/panels/StraightenDialog.h"
 #include "base/json.h"
 #include "inspect/straighten.h"
 #include "scene/SimulatedRecording.h"

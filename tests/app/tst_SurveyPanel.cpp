@@ -1,11 +1,11 @@
 // A survey in the window: one table of all events, from which recordings are opened at an event and reviewed.
 
-#include "app/panels/SurveyPanel.h"
+#include "app/features/survey/SurveyPanel.h"
 #include "support/test.h"
 
+#include "app/features/pictures/Workbench.h"
+#include "app/features/survey/SurveyModel.h"
 #include "app/openWindow.h"
-#include "app/panels/SurveyModel.h"
-#include "app/workspace/Workbench.h"
 #include "exchange/survey/SurveyDatabase.h"
 #include "exchange/survey/carryOutSurvey.h"
 #include "exchange/writeEvents.h"

@@ -2,8 +2,8 @@
 
 #include "app/TargetsTest.h"
 #include "app/document/Recovery.h"
-#include "app/welcome/WelcomePage.h"
-#include "app/workspace/PingBench.h"
+#include "app/features/opening/WelcomePage.h"
+#include "app/features/pictures/PingBench.h"
 #include "exchange/Session.h"
 #include "scene/SimulatedPings.h"
 #include "support/test.h"

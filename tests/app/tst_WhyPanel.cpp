@@ -1,7 +1,7 @@
 // The ladder under the cursor: its terms add up to what the picture shows, and its sentence says which way it went.
 
+#include "app/features/inspect/WhyPanel.h"
 #include "app/openWindow.h"
-#include "app/panels/WhyPanel.h"
 #include "support/find.h"
 #include "support/test.h"
 #include "widgets/plot/ChartPlot.h"

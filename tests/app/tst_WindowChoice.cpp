@@ -1,5 +1,5 @@
+#include "app/features/settings/PipelinePanel.h"
 #include "app/openWindow.h"
-#include "app/panels/PipelinePanel.h"
 #include "support/test.h"
 
 #include <QComboBox>

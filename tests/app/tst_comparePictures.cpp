@@ -1,5 +1,5 @@
-#include "app/render/comparePictures.h"
-#include "app/render/pictureResults.h"
+#include "app/headless/comparePictures.h"
+#include "app/headless/pictureResults.h"
 #include "base/json.h"
 #include "support/files.h"
 #include "support/test.h"

@@ -1,13 +1,13 @@
 // Every view has its equation and its keys, and both come up for the view one is at.
 
-#include "app/help/EquationSheet.h"
-#include "app/help/KeysOverlay.h"
-#include "app/help/equations.h"
-#include "app/help/keySections.h"
+#include "app/commands/KeysOverlay.h"
+#include "app/commands/keySections.h"
+#include "app/features/help/EquationSheet.h"
+#include "app/features/help/equations.h"
+#include "app/features/pictures/Workbench.h"
 #include "app/openWindow.h"
 #include "app/views/WindowViews.h"
 #include "app/window/currentView.h"
-#include "app/workspace/Workbench.h"
 #include "detect/makeDetector.h"
 #include "support/test.h"
 #include "widgets/events/EventTable.h"

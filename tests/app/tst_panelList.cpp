@@ -1,9 +1,9 @@
 // A panel costs one row of the list: a toy is in the menu, is shown by its name, rendered, and on the sheet of keys.
 
-#include "app/help/keySections.h"
+#include "app/commands/keySections.h"
+#include "app/headless/RenderOptions.h"
+#include "app/headless/renderCommand.h"
 #include "app/openWindow.h"
-#include "app/render/RenderOptions.h"
-#include "app/render/renderCommand.h"
 #include "app/views/WindowViews.h"
 #include "app/views/panelList.h"
 #include "support/test.h"

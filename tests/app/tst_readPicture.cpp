@@ -1,5 +1,5 @@
 #include "app/document/Provenance.h"
-#include "app/render/readPicture.h"
+#include "app/headless/readPicture.h"
 #include "base/Error.h"
 #include "support/test.h"
 

@@ -1,5 +1,5 @@
 #include "app/document/sourceAt.h"
-#include "app/panels/OpenOptionsDialog.h"
+#include "app/features/opening/OpenOptionsDialog.h"
 #include "support/test.h"
 
 #include "base/Error.h"

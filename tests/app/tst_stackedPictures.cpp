@@ -1,9 +1,9 @@
 // Pictures side by side, or above each other on one time axis.
 
+#include "app/features/pictures/PingBench.h"
+#include "app/features/pictures/Workbench.h"
 #include "app/openWindow.h"
 #include "app/views/WindowViews.h"
-#include "app/workspace/PingBench.h"
-#include "app/workspace/Workbench.h"
 #include "support/test.h"
 #include "widgets/plot/StripPlot.h"
 

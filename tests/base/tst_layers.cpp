@@ -6,8 +6,7 @@ const QStringList order{"base", "signal", "frames",    "noise",   "scene",   "mo
                         "plan", "refine", "calibrate", "analyse", "inspect", "evaluate", "exchange",  "live"};
 constexpr int mostArrows = 86;
 const QStringList widgetOrder{"base", "table", "plot", "waterfall", "pings", "events", "forms"};
-const QStringList appOrder{"cli",   "base",    "document", "control", "workspace", "panels",
-                           "views", "lessons", "help",     "welcome", "window",    "render"};
+const QStringList appOrder{"cli", "base", "commands", "document", "features", "views", "lessons", "window", "headless"};
 
 QString root()
 {
@@ -82,8 +81,11 @@ QString wrongAbove(const QString &path, const QString &text)
             return include.name + " does not exist";
         if (part == "widgets" && otherPart == "app")
             return include.name + " is of the app";
-        if (otherPart == part && folders.indexOf(include.name.section('/', 1, 1)) > rank)
+        const QString other = include.name.section('/', 1, 1);
+        if (otherPart == part && folders.indexOf(other) > rank)
             return include.name + " lies to the right";
+        if (folder == "features" && other == folder && include.name.section('/', 2, 2) != path.section('/', 2, 2))
+            return include.name + " is of another feature";
     }
     return {};
 }
@@ -138,8 +140,8 @@ Units arrowsOf(const QMap<QString, QString> &texts)
 
 } // namespace
 
-/// Who may include whom: a folder includes itself and the folders to its left. The core includes nothing else of the
-/// project, the widgets the core as well, the app both. No two units (a header with its source) include each other, at
+/// Who may include whom: a folder includes itself and the folders to its left, a feature of the app no other feature.
+/// The core includes nothing else of the project, the widgets the core as well, the app both. No two units (a header with its source) include each other, at
 /// no distance. The core has few arrows, that is pairs of rooms of which one includes the other.
 class tst_layers : public QObject
 {
@@ -188,6 +190,14 @@ private slots:
         QFETCH(QString, path);
         const QString wrong = wrongAbove(path, contentOf(path));
         QVERIFY2(wrong.isEmpty(), qPrintable(wrong));
+    }
+
+    void featuresIncludeNoOtherFeature()
+    {
+        const QString wrong = "#include \"app/features/survey/SurveyPanel.h\"";
+        QVERIFY(!wrongAbove("app/features/live/LiveBar.cpp", wrong).isEmpty());
+        QVERIFY(wrongAbove("app/features/survey/SurveyModel.cpp", wrong).isEmpty());
+        QVERIFY(wrongAbove("app/views/panelList.cpp", wrong).isEmpty());
     }
 
     void commandLineIncludesTheCoreOnly()

@@ -4,8 +4,8 @@
 //
 //     QT_QPA_PLATFORM=offscreen faintline-bench-paint [recording [width height]]
 
+#include "app/features/pictures/Workbench.h"
 #include "app/window/MainWindow.h"
-#include "app/workspace/Workbench.h"
 #include "widgets/base/Theme.h"
 #include "widgets/plot/ExceedancePlot.h"
 

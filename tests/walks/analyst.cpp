@@ -1,6 +1,6 @@
 // An analyst's hour: a recording from a file to judged events and back, by mouse and keys.
 
-#include "app/workspace/Workbench.h"
+#include "app/features/pictures/Workbench.h"
 #include "base/files/AtomicFile.h"
 #include "scene/SimulatedRecording.h"
 #include "signal/formats/writeRecording.h"

@@ -1,9 +1,9 @@
 // The first five minutes, from an empty home: from the start page to a recording, its lines, and what can be asked.
 
-#include "app/control/OutputLayers.h"
-#include "app/control/PlainInput.h"
-#include "app/panels/WhyPanel.h"
-#include "app/workspace/Workbench.h"
+#include "app/document/OutputLayers.h"
+#include "app/features/inspect/WhyPanel.h"
+#include "app/features/pictures/PlainInput.h"
+#include "app/features/pictures/Workbench.h"
 #include "support/test.h"
 #include "walks/Walk.h"
 #include "widgets/events/EventCard.h"

@@ -1,8 +1,8 @@
 // A small screen: every named layout leaves the pictures room.
 
+#include "app/features/pictures/PingBench.h"
+#include "app/features/pictures/Workbench.h"
 #include "app/window/Panels.h"
-#include "app/workspace/PingBench.h"
-#include "app/workspace/Workbench.h"
 #include "support/test.h"
 #include "walks/Walk.h"
 #include "widgets/pings/PingMap.h"

@@ -1,12 +1,12 @@
 // An engineer of sonar and radar: pings one after the other, the tracks in them, and tests on radar scans.
 
-#include "app/panels/SequentialPanel.h"
-#include "app/panels/StateSlicePanel.h"
-#include "app/panels/TrajectoryPage.h"
-#include "app/panels/WhyPanel.h"
+#include "app/features/inspect/StateSlicePanel.h"
+#include "app/features/inspect/WhyPanel.h"
+#include "app/features/opening/WelcomePage.h"
+#include "app/features/pictures/PingBench.h"
+#include "app/features/sequential/SequentialPanel.h"
+#include "app/features/sequential/TrajectoryPage.h"
 #include "app/ping.h"
-#include "app/welcome/WelcomePage.h"
-#include "app/workspace/PingBench.h"
 #include "support/find.h"
 #include "support/test.h"
 #include "walks/Walk.h"

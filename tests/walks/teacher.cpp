@@ -1,12 +1,12 @@
 // A teacher's lesson: from the welcome page through all steps, shown to a class, with the law changed by hand.
 
+#include "app/features/inspect/LawPanel.h"
+#include "app/features/inspect/StateSlicePanel.h"
+#include "app/features/inspect/WhyPanel.h"
+#include "app/features/pictures/Workbench.h"
+#include "app/features/settings/PipelinePanel.h"
 #include "app/lessons/LessonGuide.h"
 #include "app/lessons/LessonPanel.h"
-#include "app/panels/LawPanel.h"
-#include "app/panels/PipelinePanel.h"
-#include "app/panels/StateSlicePanel.h"
-#include "app/panels/WhyPanel.h"
-#include "app/workspace/Workbench.h"
 #include "support/find.h"
 #include "support/test.h"
 #include "walks/Walk.h"
