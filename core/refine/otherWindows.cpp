@@ -265,9 +265,7 @@ namespace {
 
         void ask(const Analysis &other, const RunContext &context)
         {
-            m_other = &other;
-            m_model = bothWaysModel(other);
-            m_likeness = other.frames->geometry().likeness();
+            setOther(other);
             if (windowOf(other) < m_shortest) {
                 m_shortest = windowOf(other);
                 m_isTooLong = false;
@@ -276,7 +274,7 @@ namespace {
             if (tracks.empty() || other.time().count < OwnNoiseLaw::fewestFrames)
                 return;
             m_noise = std::make_unique<OwnNoiseLaw>(ownNoiseLaw(other, tracks, context.part(0.0, 0.5)));
-            const Index halfWidth = bothWaysHalfWidth(m_model.binsPerCell) + levelBesideHalfWidth(m_model.binsPerCell);
+            const Index halfWidth = m_halfWidth + levelBesideHalfWidth(m_model.binsPerCell);
             for (std::size_t first = 0; first < tracks.size();) {
                 std::vector<PathStrip> strips;
                 for (std::size_t bytes = 0; first + strips.size() < tracks.size() && bytes < windowStripsBytes;) {
@@ -303,6 +301,27 @@ namespace {
             }
         }
 
+        /// Asks those tracks of the base that are left again, over the floor of stronger signals of other windows.
+        void askBaseAgain()
+        {
+            setOther(m_base);
+            std::vector<std::size_t> asked;
+            std::vector<std::vector<std::size_t>> others;
+            std::vector<PathStrip> strips;
+            for (std::size_t s = 0; s < m_tracks.size(); ++s)
+                if (std::vector<std::size_t> stronger = strongerOnes(s); !stronger.empty()) {
+                    asked.push_back(s);
+                    others.push_back(std::move(stronger));
+                    strips.push_back(stripAlong(m_tracks[s], m_halfWidth));
+                }
+            std::vector<PathStrip *> all;
+            for (PathStrip &strip : strips)
+                all.push_back(&strip);
+            readStrips(m_base, std::move(all), {}, "comparing windows");
+            for (std::size_t i = 0; i < asked.size(); ++i)
+                keepUnexplained(asked[i], strips[i], others[i]);
+        }
+
         AskedWindows take()
         {
             joinParts();
@@ -312,6 +331,61 @@ namespace {
         }
 
     private:
+        void setOther(const Analysis &other)
+        {
+            m_other = &other;
+            m_model = bothWaysModel(other);
+            m_likeness = other.frames->geometry().likeness();
+            m_halfWidth = bothWaysHalfWidth(m_model.binsPerCell);
+        }
+
+        /// The signals of other windows that have more evidence than a track of the base and are, at some time, where
+        /// it is.
+        std::vector<std::size_t> strongerOnes(std::size_t s) const
+        {
+            const Curve &own = m_curves[s];
+            const auto meets = [&](const Curve &other) {
+                for (std::size_t i = 0; i < own.count(); ++i) {
+                    const double t = own.secondsAt(i);
+                    const Band band = other.between(t - windowHalf(), t + windowHalf());
+                    if (band.low - ownPowerCells * cellHz() <= own.hzAt(i)
+                        && own.hzAt(i) <= band.high + ownPowerCells * cellHz())
+                        return true;
+                }
+                return false;
+            };
+            std::vector<std::size_t> result;
+            for (std::size_t other = 0; m_tracks[s].windowSeconds == 0.0 && other < m_tracks.size(); ++other)
+                if (m_tracks[other].windowSeconds > 0.0 && !m_tracks[other].points.empty()
+                    && m_tracks[other].peakStatistic > m_tracks[s].peakStatistic && meets(m_curves[other]))
+                    result.push_back(other);
+            return result;
+        }
+
+        /// Keeps of a track of the base what stronger signals do not explain, from where it is first present to where it
+        /// is last.
+        void keepUnexplained(std::size_t s, PathStrip &strip, const std::vector<std::size_t> &stronger)
+        {
+            divideBySignals(strip,
+                            [&](std::size_t other) { return std::ranges::find(stronger, other) != stronger.end(); });
+            Track rest = m_tracks[s].withoutPoints();
+            const double gain = gainOf(strip);
+            if (gain >= m_base.threshold) {
+                m_model.ends = {.absentBefore = true, .absentAfter = true};
+                const std::vector<float> endsBy = lookBothWays(strip, m_model).endsBy;
+                const auto isPresent = [](float probability) { return probability > 0.5f; };
+                const auto first = std::ranges::find_if(endsBy, isPresent);
+                const auto last = std::find_if(endsBy.rbegin(), endsBy.rend(), isPresent);
+                if (first != endsBy.end())
+                    rest = partOf(m_tracks[s], std::size_t(first - endsBy.begin()), std::size_t(endsBy.rend() - last),
+                                  std::min(gain, m_tracks[s].peakStatistic));
+            }
+            if (rest.points.size() == m_tracks[s].points.size())
+                return;
+            m_tracks[s] = std::move(rest);
+            m_curves[s] = Curve(m_tracks[s], m_base);
+        }
+
         /// Joins those parts that no other window has replaced, to the first one of each path.
         void joinParts()
         {
@@ -540,7 +614,8 @@ namespace {
         /// evidence alone, which is their statistic.
         std::vector<PathPart> partsOf(const Track &x, PathStrip strip, const std::vector<std::size_t> &leftOut)
         {
-            divideBySignals(strip, leftOut);
+            divideBySignals(strip, [&](std::size_t s) { return std::ranges::find(leftOut, s) == leftOut.end(); });
+            divideByAreas(strip);
             divideBySurroundings(strip, x);
             std::vector<PathPart> result;
             if (gainOf(strip) < sureStatistic(*m_other))
@@ -576,23 +651,27 @@ namespace {
 
         WindowShape shape() const { return m_other->frames->geometry().window; }
 
-        /// Divides y by the floor of the known signals and areas.
-        void divideBySignals(PathStrip &strip, const std::vector<std::size_t> &leftOut) const
+        /// Divides y by the floor of some known signals.
+        template <class IsTaken>
+        void divideBySignals(PathStrip &strip, IsTaken isTaken) const
         {
             std::vector<float> floor(strip.y.size(), 1.0f);
             const double first = m_other->time().value(double(strip.firstFrame));
             const double last = m_other->time().value(double(strip.firstFrame + strip.frameCount() - 1));
             for (std::size_t s = 0; s < m_curves.size(); ++s)
-                if (m_curves[s].count() > 0 && std::ranges::find(leftOut, s) == leftOut.end()
-                    && m_curves[s].heardFrom() - windowHalf() <= last
+                if (m_curves[s].count() > 0 && isTaken(s) && m_curves[s].heardFrom() - windowHalf() <= last
                     && m_curves[s].heardUntil() + windowHalf() >= first)
                     raise(floor, strip, m_curves[s]);
-            raiseAreas(floor, strip);
+            divide(strip, floor);
+        }
+
+        static void divide(PathStrip &strip, const std::vector<float> &floor)
+        {
+            strip.floor.resize(std::size_t(strip.frameCount()), 1.0f);
             for (std::size_t i = 0; i < strip.y.size(); ++i)
                 strip.y[i] /= floor[i];
-            strip.floor.clear();
             for (Index at = 0; at < strip.frameCount(); ++at)
-                strip.floor.push_back(floor[std::size_t(at * strip.width() + strip.halfWidth)]);
+                strip.floor[std::size_t(at)] *= floor[std::size_t(at * strip.width() + strip.halfWidth)];
         }
 
         /// Raises the floor by a signal, whose power is the largest in its band.
@@ -622,10 +701,10 @@ namespace {
             }
         }
 
-        /// Raises the floor to the base's areas.
-        void raiseAreas(std::vector<float> &floor, const PathStrip &strip) const
+        /// Divides y by the level of the base's areas.
+        void divideByAreas(PathStrip &strip) const
         {
-            std::vector<float> levels(floor.size(), 1.0f);
+            std::vector<float> levels(strip.y.size(), 1.0f);
             for (const Area &area : m_base.areas) {
                 const Axis &own = frequencyOf(m_base);
                 const auto frame = [&](Index of, double shift) {
@@ -643,8 +722,7 @@ namespace {
                             level = std::max(level, float(area.level));
                         }
             }
-            for (std::size_t i = 0; i < floor.size(); ++i)
-                floor[i] *= levels[i];
+            divide(strip, levels);
         }
 
         /// Divides y by the raised level of the surroundings of x, measured without its own leakage.
@@ -711,6 +789,7 @@ namespace {
         std::set<std::size_t> m_betterKnown;
         BothWaysModel m_model;   ///< of the other window
         double m_likeness = 1.0; ///< of its cells
+        Index m_halfWidth = 0;   ///< bins beside a path in which it is looked at
         std::unique_ptr<OwnNoiseLaw> m_noise;
     };
 
@@ -724,8 +803,10 @@ AskedWindows withOtherWindows(const Analysis &base, std::span<const std::shared_
     std::ranges::stable_sort(byDistance, {},
                              [&](const auto &other) { return std::abs(std::log(windowOf(*other) / windowOf(base))); });
     const auto count = double(byDistance.size());
-    for (std::size_t i = 0; i < byDistance.size(); ++i)
+    for (std::size_t i = 0; i < byDistance.size(); ++i) {
         signals.ask(*byDistance[i], context.part(double(i) / count, double(i + 1) / count));
+        signals.askBaseAgain();
+    }
     return signals.take();
 }
 

@@ -17,9 +17,9 @@ struct AskedWindows {
 
 /// The tracks of the recording's window, the base, and what other windows know better, each asked in its own window.
 ///
-/// The base keeps all its tracks, except pieces of one path. Windows are asked in the order of their distance from the
-/// base, and the tracks X of each by their statistic. Those of shorter windows are asked, those of longer ones if their
-/// window sees them better than the base does,
+/// The base keeps all its tracks, except pieces of one path, and what stronger signals explain. Windows are asked in the
+/// order of their distance from the base, and the tracks X of each by their statistic. Those of shorter windows are asked,
+/// those of longer ones if their window sees them better than the base does,
 ///
 ///   √T/max(1, m) > √T0/max(1, m0),   T, T0: the windows
 ///
@@ -50,13 +50,17 @@ struct AskedWindows {
 ///
 ///                 Σ (y - 1)/w ≥ ½ Σ r    y: the base's cells within one of where X is during T0; r: X's power over the
 ///                                        noise's; w: sum of the main lobe's powers over its largest one, in bins
+///   explaining  the tracks of the base's own window that are left are asked again over the floor of those signals of
+///               other windows that meet them and have more evidence: what a line spreads over the cells that it passes
+///               in a long window makes short tracks there. A track whose gain is below the threshold goes; else it is
+///               kept from where it is first present to where it is last.
 ///   joining     in the end, successive parts of X that were added and still are tracks are one, if the path of X loses
 ///               less than the threshold between them.
 ///
 /// Windows of fewer than OwnNoiseLaw::fewestFrames frames are not asked. Positions are interpolated between frames, or
 /// the means of those in the time from one of the base's frames to the next; statistics are shifted by the difference of
-/// the two thresholds, and powers divided by the ratio of the windows, so that both have the same meaning as in the base. The result is renumbered, by detection, then cell. All analyses must have
-/// two-sided tracks (secondLook.h). Throws Cancelled.
+/// the two thresholds, and powers divided by the ratio of the windows, so that both have the same meaning as in the base.
+/// The result is renumbered, by detection, then cell. All analyses must have two-sided tracks (secondLook.h). Throws Cancelled.
 AskedWindows withOtherWindows(const Analysis &base, std::span<const std::shared_ptr<const Analysis>> others,
                               const RunContext &context = {});
 

@@ -95,6 +95,7 @@ private slots:
     void strongLinesThatStandStillStay();
     void shorterWindowsAreTriedForWhatIsTooFast();
     void partsBetweenWhichLittleIsLostAreOneTrack();
+    void aStrongFastLineIsOneTrack();
     void aChangeOfTheThresholdAsksAgain();
 };
 
@@ -300,6 +301,21 @@ void tst_otherWindows::partsBetweenWhichLittleIsLostAreOneTrack()
     QCOMPARE(found.size(), std::size_t(3));
     for (const Event &event : found)
         QVERIFY(event.endSeconds - event.onsetSeconds > 1.2);
+}
+
+/// In the chosen window the line moves over a hundred cells, among which its energy makes short tracks.
+void tst_otherWindows::aStrongFastLineIsOneTrack()
+{
+    for (const int seed : {2, 4, 8}) {
+        LineScene lines = sixThatStandStill(seed);
+        lines.lines.push_back(line(900.0, 8.0, 2.0, 28.0, 25.0, 0.2));
+        lines.lines.back().wanderHz = 10.0;
+        lines.lines.back().wanderSeconds = 4.0;
+        std::vector<Event> found = events(*analysed(lines));
+        std::erase_if(found, [](const Event &event) { return event.position.front() < 700.0; });
+        QCOMPARE(found.size(), std::size_t(1));
+        QVERIFY(found.front().onsetSeconds < 3.0 && found.front().endSeconds > 29.0);
+    }
 }
 
 void tst_otherWindows::aChangeOfTheThresholdAsksAgain()
