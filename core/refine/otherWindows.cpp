@@ -232,7 +232,10 @@ namespace {
         own.isOpen = part.endFrame > own.endFrame ? part.isOpen : own.isOpen;
         own.takeEndsOfPoints();
         own.detectFrame = std::clamp(part.detectFrame, own.onsetFrame, own.detectFrame);
-        own.peakStatistic = std::max(own.peakStatistic, part.peakStatistic);
+        if (part.peakStatistic > own.peakStatistic) {
+            own.peakStatistic = part.peakStatistic;
+            own.windowSeconds = part.windowSeconds;
+        }
         for (TrackPoint &point : own.points)
             point.statistic = std::min(point.statistic, own.peakStatistic);
     }
@@ -799,12 +802,17 @@ AskedWindows withOtherWindows(const Analysis &base, std::span<const std::shared_
                               const RunContext &context)
 {
     KnownSignals signals(base);
-    std::vector<std::shared_ptr<const Analysis>> byDistance(others.begin(), others.end());
-    std::ranges::stable_sort(byDistance, {},
-                             [&](const auto &other) { return std::abs(std::log(windowOf(*other) / windowOf(base))); });
-    const auto count = double(byDistance.size());
-    for (std::size_t i = 0; i < byDistance.size(); ++i) {
-        signals.ask(*byDistance[i], context.part(double(i) / count, double(i + 1) / count));
+    const auto mostEvidence = [](const std::shared_ptr<const Analysis> &other) {
+        double most = 0.0;
+        for (const Track &track : other->tracks)
+            most = std::max(most, track.peakStatistic - other->threshold);
+        return most;
+    };
+    std::vector<std::shared_ptr<const Analysis>> byEvidence(others.begin(), others.end());
+    std::ranges::stable_sort(byEvidence, std::greater<>(), mostEvidence);
+    const auto count = double(byEvidence.size());
+    for (std::size_t i = 0; i < byEvidence.size(); ++i) {
+        signals.ask(*byEvidence[i], context.part(double(i) / count, double(i + 1) / count));
         signals.askBaseAgain();
     }
     return signals.take();

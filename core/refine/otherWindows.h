@@ -17,9 +17,9 @@ struct AskedWindows {
 
 /// The tracks of the recording's window, the base, and what other windows know better, each asked in its own window.
 ///
-/// The base keeps all its tracks, except pieces of one path, and what stronger signals explain. Windows are asked in the
-/// order of their distance from the base, and the tracks X of each by their statistic. Those of shorter windows are asked,
-/// those of longer ones if their window sees them better than the base does,
+/// The base keeps all its tracks, except pieces of one path, and what stronger signals explain. The windows are asked in
+/// the order of the evidence of their strongest tracks, and the tracks X of each by their statistic. Those of shorter
+/// windows are asked, those of longer ones if their window sees them better than the base does,
 ///
 ///   √T/max(1, m) > √T0/max(1, m0),   T, T0: the windows
 ///
