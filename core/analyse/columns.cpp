@@ -73,7 +73,7 @@ std::vector<std::string> positionNames(const Grid &grid)
 
 OptionalColumns OptionalColumns::of(const AnalysisPlan &plan)
 {
-    return {looksTwice(plan), plan.settings.subtract.lines, plan.isBank()};
+    return {looksTwice(plan), looksTwice(plan), plan.settings.subtract.lines, plan.isBank()};
 }
 
 std::vector<TableColumn<Event>> eventColumns(const Grid &grid, OptionalColumns optional)
@@ -116,6 +116,9 @@ std::vector<TableColumn<Event>> eventColumns(const Grid &grid, OptionalColumns o
             "Probability that noise alone gives an event as significant as this one in this recording");
         add(columnOf("window_s", &Event::windowSeconds), "Window", "s",
             "Length of the window that found the event: the displayed one, or another one that sees it better");
+        if (optional.kinds)
+            for (const SignalKind kind : {SignalKind::Keyed, SignalKind::Spread})
+                add({nameOf(kind), [kind](const Event &e) { return e.kind == kind; }, false});
     }
     keyRank = 3;
     if (optional.subtracted)
@@ -131,7 +134,8 @@ std::vector<TableColumn<Event>> eventColumns(const Grid &grid, OptionalColumns o
 
 Json eventJson(const Event &e, const AnalysisPlan &plan)
 {
-    auto columns = eventColumns(plan.grid(), {.secondPass = true, .subtracted = true, .bank = plan.isBank()});
+    auto columns =
+        eventColumns(plan.grid(), {.secondPass = true, .kinds = true, .subtracted = true, .bank = plan.isBank()});
     std::ranges::stable_sort(columns, {}, &TableColumn<Event>::keyRank);
     Json json;
     for (const TableColumn<Event> &column : columns)

@@ -38,6 +38,7 @@ std::vector<std::string> positionNames(const Grid &grid);
 /// Which columns there are of those that not all events and tracks have.
 struct OptionalColumns {
     bool secondPass = false; ///< secondLook.h
+    bool kinds = false;      ///< of signals, with that; surveys have none
     bool subtracted = false; ///< subtractLines.h
     bool bank = false;       ///< of models
 

@@ -67,6 +67,7 @@ namespace {
         const double cellFrames = double(analysis.grid().size()) * double(analysis.time().count);
         event.windowSeconds =
             track.windowSeconds > 0.0 ? track.windowSeconds : analysis.frames->geometry().windowSeconds;
+        event.kind = kindOf(track, analysis);
         event.noiseProbability = -std::expm1(-analysis.calibration->eventRateAt(event.statistic) * cellFrames);
     }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "plan/Analysis.h"
+#include "refine/signalKind.h"
 
 #include <limits>
 #include <string>
@@ -43,6 +44,7 @@ struct Event {
     double noiseProbability = std::numeric_limits<double>::quiet_NaN();
     /// T_FT of the window that found it: the frames' own, or another one (otherWindows.h).
     double windowSeconds = std::numeric_limits<double>::quiet_NaN();
+    SignalKind kind = SignalKind::Unknown;
 };
 
 /// A burst, a cloud or another signal that is not a line, in physical units; derived from an area.

@@ -14,7 +14,6 @@
 #include "refine/numberByDetection.h"
 #include "refine/ownNoiseLaw.h"
 #include "refine/secondLook.h"
-#include "refine/spreadTracks.h"
 #include "refine/subtractLines.h"
 #include "refine/trimEnds.h"
 
@@ -164,13 +163,6 @@ namespace {
         }
         if (!request.isTrial)
             holdAgainstOwnNoise(analysis, context.part(0.6, 1.0));
-    }
-
-    /// Spread tracks are areas, and the others end with their signals.
-    void finishTracks(Analysis &analysis)
-    {
-        moveSpreadTracks(analysis);
-        analysis.tracks = withEndsTrimmed(std::move(analysis.tracks));
     }
 
     /// Streams the frames through the chain, and sets all of the analysis that does not need the tracks. Returns these.
@@ -388,7 +380,7 @@ namespace {
             publisher = ProgressPublisher(request.pictures, analysis.time(), analysis.grid().axes.back());
         run(analysis, context.part(0.1, 1.0), request, publisher);
         if (!request.isTrial)
-            finishTracks(analysis);
+            analysis.tracks = withEndsTrimmed(std::move(analysis.tracks));
     }
 
 } // namespace
@@ -401,7 +393,7 @@ std::shared_ptr<Analysis> runOnRecording(const RecordingPointer &recording, cons
     std::shared_ptr<Analysis> analysis =
         analyseWithRest(recording, settings, context, lender(request.previous, recording), request);
     if (!request.isTrial)
-        finishTracks(*analysis);
+        analysis->tracks = withEndsTrimmed(std::move(analysis->tracks));
     return analysis;
 }
 

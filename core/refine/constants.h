@@ -69,7 +69,6 @@ inline constexpr Index fewestMeans = 6;         ///< of which onset and end of a
 inline constexpr double lineBandCells = 2.2;    ///< of the 5-95 % band of a line at 0 dB or more
 inline constexpr double strongLevelRatio = 4.0; ///< from which no track is taken for a spread one
 inline constexpr double slowLawProbability = 0.8; ///< h(0), from which a law is one of lines
-inline constexpr Index spreadAreaFrames = 25;     ///< of the area of a spread track
 
 // ---- the recording's own noise -------------------------------------------------------------------------------------
 

@@ -9,7 +9,7 @@
 #include "refine/numberByDetection.h"
 #include "refine/ownNoiseLaw.h"
 #include "refine/pathStrips.h"
-#include "refine/spreadTracks.h"
+#include "refine/signalKind.h"
 #include "refine/trimEnds.h"
 
 #include <algorithm>
@@ -423,17 +423,15 @@ namespace {
         /// Of the other window, the strongest first.
         std::vector<Track> tracksToAsk() const
         {
-            Analysis found;
-            static_cast<AnalysisPlan &>(found) = *m_other;
-            found.tracks = withEndsTrimmed(m_other->tracks);
-            moveSpreadTracks(found);
-            std::erase_if(found.tracks, [this](const Track &track) {
+            std::vector<Track> tracks = withEndsTrimmed(m_other->tracks);
+            std::erase_if(tracks, [this](const Track &track) {
                 const Curve curve(track, *m_other);
-                return track.peakStatistic < sureStatistic(*m_other) || track.points.size() < 2 || isKnown(curve)
+                return track.peakStatistic < sureStatistic(*m_other) || track.points.size() < 2
+                       || kindOf(track, *m_other) == SignalKind::Spread || isKnown(curve)
                        || !(isShorter() || isSeenBetter(curve) || followersOf(curve).size() > 1);
             });
-            std::ranges::stable_sort(found.tracks, std::greater<>(), &Track::peakStatistic);
-            return std::move(found.tracks);
+            std::ranges::stable_sort(tracks, std::greater<>(), &Track::peakStatistic);
+            return tracks;
         }
 
         bool isShorter() const { return windowOf(*m_other) < windowOf(m_base); }

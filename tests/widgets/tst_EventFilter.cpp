@@ -87,6 +87,16 @@ private slots:
         QCOMPARE(accepts("confirmed open"), isConfirmed && isOpen);
     }
 
+    void kinds()
+    {
+        Event tried = event();
+        tried.kind = SignalKind::Spread;
+        QVERIFY(EventFilter("spread !keyed !line").accepts(tried));
+        QVERIFY(!EventFilter("line").accepts(tried));
+        tried.kind = SignalKind::Keyed;
+        QVERIFY(EventFilter("keyed !spread").accepts(tried));
+    }
+
     void reviews_data()
     {
         QTest::addColumn<QString>("text");

@@ -126,6 +126,8 @@ private slots:
         strong.noiseProbability = 0.01;
         weak.windowSeconds = 0.5;
         strong.windowSeconds = 16.0;
+        weak.kind = SignalKind::Line;
+        strong.kind = SignalKind::Spread;
         weak.driftPerSecond = -3.0;
         strong.driftPerSecond = -0.02;
         weak.isConfirmed = true;

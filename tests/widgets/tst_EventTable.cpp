@@ -284,6 +284,17 @@ private slots:
         QVERIFY(m_table->table()->isColumnHidden(EventModel::Window));
     }
 
+    void kindsWhereNotAllAreLines()
+    {
+        std::vector<Event> events{test::event(1, 1.0, 2.0, 100.0), test::event(2, 1.5, 3.0, 200.0)};
+        events[0].kind = events[1].kind = SignalKind::Line;
+        m_table->setEvents(events);
+        QVERIFY(m_table->table()->isColumnHidden(EventModel::Kind));
+        events[1].kind = SignalKind::Keyed;
+        m_table->setEvents(events);
+        QVERIFY(!m_table->table()->isColumnHidden(EventModel::Kind));
+    }
+
 private:
     std::unique_ptr<EventTable> m_table;
     std::vector<int> m_activated;

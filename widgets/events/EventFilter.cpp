@@ -93,6 +93,10 @@ namespace {
              [](const Event &, const EventReview &r) { return r.verdict == Verdict::None; }},
             {QStringLiteral("merged"), [](const Event &, const EventReview &r) { return r.signal != r.event; }},
             {QStringLiteral("noted"), [](const Event &, const EventReview &r) { return !r.note.empty(); }},
+            {QStringLiteral("line"), [](const Event &e, const EventReview &) { return e.kind == SignalKind::Line; }},
+            {QStringLiteral("keyed"), [](const Event &e, const EventReview &) { return e.kind == SignalKind::Keyed; }},
+            {QStringLiteral("spread"),
+             [](const Event &e, const EventReview &) { return e.kind == SignalKind::Spread; }},
         };
         for (const auto &[word, condition] : words)
             if (word.startsWith(term))

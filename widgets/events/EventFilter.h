@@ -12,7 +12,7 @@ namespace faintline {
 /// A filter from a line of text: state words and comparisons, all of which must hold.
 ///
 ///     f>1000 drift<0 stat>=25 t<60 dur>5 id=3 open confirmed tentative
-///     accepted rejected unreviewed merged noted !rejected
+///     accepted rejected unreviewed merged noted line keyed spread !rejected
 ///
 /// A term that is not understood is reported and accepts everything.
 class EventFilter

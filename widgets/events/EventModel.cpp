@@ -148,6 +148,12 @@ std::vector<ShownColumn<Event>> EventModel::columns() const
                [](E event) {
                    return orDash(event.windowSeconds, [](double value) { return QString::number(value, 'g', 4); });
                }),
+        {.heading = tr("Kind"),
+         .text = [](E event) { return QString::fromStdString(nameOf(event.kind)); },
+         .key = [](E event) { return double(event.kind); },
+         .alignment = Qt::AlignHCenter,
+         .tip =
+             tr("Line, keyed (a line with two pauses or more), or spread: wider than a line, followed by its centre")},
         {.heading = tr("Onset (UTC)"),
          .text =
              [this](E event) {
@@ -305,6 +311,11 @@ bool EventModel::hasWindows() const
 {
     return std::ranges::any_of(m_events,
                                [&](const Event &event) { return windowOf(event) != windowOf(m_events.front()); });
+}
+
+bool EventModel::hasKinds() const
+{
+    return std::ranges::any_of(m_events, [](const Event &event) { return event.kind > SignalKind::Line; });
 }
 
 bool EventModel::hasClasses() const

@@ -42,6 +42,7 @@ public:
         Snr,
         Chance, ///< of being noise, if it is known of some events
         Window, ///< if events were found with different windows
+        Kind,   ///< if not all are lines
         Utc,    ///< onset, if the recording's start time is known
         Radio,  ///< frequency including the receiver's centre, if there is one
         End,
@@ -71,6 +72,8 @@ public:
     bool hasChances() const;
     /// Whether another window found some of the events.
     bool hasWindows() const;
+    /// Whether some events are of another kind than lines.
+    bool hasKinds() const;
     /// Whether any event has a class.
     bool hasClasses() const;
     bool hasRadio() const { return m_scales.centreHz != 0.0; }

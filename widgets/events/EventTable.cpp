@@ -29,8 +29,8 @@ EventTable::EventTable(QWidget *parent)
 {
     m_filter->setPlaceholderText(tr("Filter: f>1000 stat>25 !rejected"));
     m_filter->setToolTip(
-        tr("Conditions that must all hold: open, confirmed, tentative, accepted, rejected, unreviewed, merged, noted, "
-           "negated by a leading !; id, t, detect, confirm, end, dur, f, drift, stat, snr compared by <, >, =, <=, >=; "
+        tr("Conditions that must all hold: open, confirmed, tentative, accepted, rejected, unreviewed, merged, noted, line, "
+           "keyed, spread, negated by a leading !; id, t, detect, confirm, end, dur, f, drift, stat, snr compared by <, >, =, <=, >=; "
            "class=NAME, without spaces"));
     m_filter->setClearButtonEnabled(true);
     m_filter->setAccessibleName(tr("Filter events"));
@@ -109,8 +109,9 @@ void EventTable::setUpTable()
     orderColumns();
     m_table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     m_table->installEventFilter(this);
-    for (const int column : {EventModel::Bearing, EventModel::ThirdAxis, EventModel::FourthAxis, EventModel::Chance,
-                             EventModel::Window, EventModel::Utc, EventModel::Radio, EventModel::Class})
+    for (const int column :
+         {EventModel::Bearing, EventModel::ThirdAxis, EventModel::FourthAxis, EventModel::Chance, EventModel::Window,
+          EventModel::Kind, EventModel::Utc, EventModel::Radio, EventModel::Class})
         m_table->setColumnHidden(column, true);
     connect(m_table, &QTableView::clicked, this, [this](const QModelIndex &index) {
         if (selectedEvents().size() == 1) // otherwise several are being selected
@@ -129,6 +130,7 @@ void EventTable::setEvents(const std::vector<Event> &events)
     m_model->setEvents(events);
     m_table->setColumnHidden(EventModel::Chance, !m_model->hasChances());
     m_table->setColumnHidden(EventModel::Window, !m_model->hasWindows());
+    m_table->setColumnHidden(EventModel::Kind, !m_model->hasKinds());
     if (isFirst && !events.empty()) {
         m_table->resizeColumnsToContents();
         narrowColumns();
@@ -155,8 +157,8 @@ void EventTable::orderColumns()
     QHeaderView &header = *m_table->horizontalHeader();
     std::vector<int> order;
     if (!m_model->hasBearing())
-        order = {EventModel::Id,    EventModel::Frequency, EventModel::Snr,    EventModel::Onset,
-                 EventModel::Drift, EventModel::End,       EventModel::Chance, EventModel::Window};
+        order = {EventModel::Id,  EventModel::Frequency, EventModel::Snr,    EventModel::Onset, EventModel::Drift,
+                 EventModel::End, EventModel::Chance,    EventModel::Window, EventModel::Kind};
     for (int column = 0; column < EventModel::ColumnCount; ++column)
         if (std::ranges::find(order, column) == order.end())
             order.push_back(column);

@@ -1,4 +1,4 @@
-#include "refine/spreadTracks.h"
+#include "refine/signalKind.h"
 #include "support/test.h"
 
 #include "analyse/analyse.h"
@@ -31,17 +31,15 @@ Analysis withBand(Analysis analysis, double cells, float level)
     return analysis;
 }
 
-bool isMoved(Analysis analysis)
+bool isSpread(const Analysis &analysis)
 {
-    const std::size_t before = analysis.tracks.size();
-    moveSpreadTracks(analysis);
-    return analysis.tracks.size() < before && !analysis.areas.empty();
+    return kindOf(analysis.tracks.at(0), analysis) == SignalKind::Spread;
 }
 
 } // namespace
 
-/// Paths through signals that are no lines.
-class tst_spreadTracks : public QObject
+/// Lines, keyed lines, and signals that are wider.
+class tst_signalKind : public QObject
 {
     Q_OBJECT
 
@@ -71,54 +69,69 @@ private slots:
         QFETCH(double, cells);
         QFETCH(float, level);
         QFETCH(bool, isSpread);
-        QCOMPARE(isMoved(withBand(m_line, cells, level)), isSpread);
+        QCOMPARE(::isSpread(withBand(m_line, cells, level)), isSpread);
     }
 
-    void pausesDoNotCount()
+    void pausesDoNotCountInTheWidth()
     {
         Analysis keyed = withBand(m_line, 1.0, 2.0f);
         std::vector<SmoothedPoint> &points = keyed.tracks[0].smoothed;
         for (std::size_t i = 1; i < points.size(); i += 2)
             points[i] = {points[i].position, float(points[i].position - 20.0), float(points[i].position + 20.0), 0.1f,
                          2.0f};
-        QVERIFY(!isMoved(keyed));
+        QCOMPARE(kindOf(keyed.tracks[0], keyed), SignalKind::Keyed);
     }
 
-    void whatMayBeNoiseStays()
+    void aKeyedLineHasTwoPausesOrMore()
+    {
+        Analysis analysis = m_line;
+        std::vector<SmoothedPoint> &points = analysis.tracks.at(0).smoothed;
+        for (SmoothedPoint &point : points)
+            point.presence = 1.0f;
+        const auto kindWithout = [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i <= last; ++i)
+                points[i].presence = 0.1f;
+            return nameOf(kindOf(analysis.tracks[0], analysis));
+        };
+        QCOMPARE(kindWithout(0, 1), "line"); // an end is no pause
+        QCOMPARE(kindWithout(50, 70), "line");
+        QCOMPARE(kindWithout(90, 92), "keyed");
+    }
+
+    void simulatedKeyingIsTold()
+    {
+        LineScene scene = test::scene(1000.0, 60.0, 7);
+        for (const double start : {4.0, 15.0, 26.0, 37.0}) // pauses of 1 s
+            scene.lines.push_back(test::line(200.0, 0.0, start, 10.0, 12.0, lineWindowSeconds));
+        AnalysisSettings settings;
+        settings.spectrogram.windowSeconds = lineWindowSeconds;
+        const auto analysis = analyse(std::make_shared<SimulatedRecording>(scene), settings);
+        QCOMPARE(analysis->tracks.size(), std::size_t(1));
+        QCOMPARE(nameOf(kindOf(analysis->tracks[0], *analysis)), "keyed");
+        QCOMPARE(nameOf(kindOf(m_line.tracks[0], m_line)), "line");
+    }
+
+    void whatMayBeNoiseIsALine()
     {
         Analysis faint = withBand(m_line, 3.0, 2.0f);
         faint.tracks[0].peakStatistic = faint.threshold + 3.0;
-        QVERIFY(!isMoved(faint));
+        QVERIFY(!isSpread(faint));
         faint.tracks[0].peakStatistic = faint.threshold + 3.6;
-        QVERIFY(isMoved(faint));
+        QVERIFY(isSpread(faint));
     }
 
-    void lawsWithoutInertiaKeepTheirs() { QVERIFY(!isMoved(withBand(withOneLine(laws::billon()), 3.0, 2.0f))); }
+    void linesOfLawsWithoutInertiaAreNotSpread() { QVERIFY(!isSpread(withBand(withOneLine(laws::billon()), 3.0, 2.0f))); }
 
-    void theAreaIsWhereTheTrackWas()
+    void withoutTheSecondPassItIsNotKnown()
     {
-        Analysis analysis = withBand(m_line, 3.0, 2.0f);
-        const Track track = analysis.tracks[0];
-        moveSpreadTracks(analysis);
-        QVERIFY(analysis.tracks.empty());
-        QCOMPARE(analysis.areas.front().firstFrame, track.onsetFrame);
-        QCOMPARE(analysis.areas.back().lastFrame, track.endFrame);
-        const double half = 1.5 * analysis.frames->spectrogram()->binsPerCell();
-        for (const Area &area : analysis.areas) {
-            QVERIFY(std::abs(area.level - 3.0) < 1e-6); // noise and signal
-            for (std::size_t i = 0; i < track.points.size(); ++i) {
-                const Index frame = track.points[i].frame;
-                if (frame < area.firstFrame || frame > area.lastFrame)
-                    continue;
-                QVERIFY(double(area.firstCell) <= track.smoothed[i].position - half + 0.5);
-                QVERIFY(double(area.lastCell) >= track.smoothed[i].position + half - 0.5);
-            }
-        }
+        Analysis analysis = m_line;
+        analysis.tracks[0].smoothed.clear();
+        QCOMPARE(nameOf(kindOf(analysis.tracks[0], analysis)), "");
     }
 
 private:
     Analysis m_line;
 };
 
-FAINTLINE_TEST(tst_spreadTracks)
-#include "tst_spreadTracks.moc"
+FAINTLINE_TEST(tst_signalKind)
+#include "tst_signalKind.moc"
