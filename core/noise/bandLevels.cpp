@@ -1,5 +1,6 @@
 #include "noise/bandLevels.h"
 
+#include "base/multiversion.h"
 #include "noise/between.h"
 #include "noise/constants.h"
 #include "noise/levels.h"
@@ -42,6 +43,41 @@ namespace {
             level = value = value < levelNotKnown ? value : level;
     }
 
+    /// Cells first … end-1.
+    struct CellRange {
+        Index first;
+        Index end;
+    };
+
+    /// The wanted ones of a range of cells.
+    std::vector<CellRange> wantedCells(const std::vector<bool> &isWanted, CellRange range)
+    {
+        std::vector<CellRange> wanted;
+        for (Index cell = range.first; cell < range.end; ++cell) {
+            if (!isWanted[std::size_t(cell)])
+                continue;
+            if (wanted.empty() || wanted.back().end != cell)
+                wanted.push_back({cell, cell});
+            wanted.back().end = cell + 1;
+        }
+        return wanted;
+    }
+
+    Index countOf(const std::vector<CellRange> &ranges)
+    {
+        Index count = 0;
+        for (const CellRange &range : ranges)
+            count += range.end - range.first;
+        return count;
+    }
+
+    FAINTLINE_MULTIVERSION
+    void multiply(const float *a, const float *b, Index count, float *product)
+    {
+        for (Index i = 0; i < count; ++i)
+            product[i] = a[i] * b[i];
+    }
+
     /// Computes levels over a block's background, frame by frame.
     class FrameLevels
     {
@@ -49,19 +85,17 @@ namespace {
         FrameLevels(const BlockBackground &block, Index bands, double likeness)
             : m_bands(bands), m_cells(std::ssize(block.lnPower)), m_likeness(likeness),
               m_agreeing(float(4.0 * medianScatter(double(m_cells) / double(bands)))), m_inverse(std::size_t(m_cells)),
-              m_noise(std::size_t(bands)), m_firm(std::size_t(bands)),
-              m_medians(std::size_t(bands), std::numbers::ln2_v<float>)
+              m_medians(std::size_t(bands), std::numbers::ln2_v<float>), m_products(std::size_t(m_cells))
         {
             for (std::size_t cell = 0; cell < m_inverse.size(); ++cell)
                 m_inverse[cell] =
                     block.lnPower[cell] > NoiseBackground::silence ? std::exp(-block.lnPower[cell]) : 0.0f;
-            for (Index band = 0; band < bands; ++band)
-                for (Index cell = firstCell(band, bands, m_cells); cell < endCell(band, bands, m_cells); ++cell) {
-                    if (block.isNoise[std::size_t(cell)])
-                        m_noise[std::size_t(band)].push_back(cell);
-                    if (block.isFirm[std::size_t(cell)])
-                        m_firm[std::size_t(band)].push_back(cell);
-                }
+            for (Index band = 0; band < bands; ++band) {
+                const CellRange range{firstCell(band, bands, m_cells), endCell(band, bands, m_cells)};
+                m_noise.push_back(wantedCells(block.isNoise, range));
+                m_firm.push_back(wantedCells(block.isFirm, range));
+                m_isMostlyFirm.push_back(2 * countOf(m_firm.back()) >= range.end - range.first);
+            }
         }
 
         /// Levels of each sub-band, and last of the whole band.
@@ -75,13 +109,12 @@ namespace {
             for (const Index band : m_telling)
                 told.push_back(levels[std::size_t(band)]);
             const float middle = middleOf(told);
-            m_sample.clear();
+            m_count = 0;
             for (Index band : m_telling)
                 if (m_telling.size() < 3 || std::abs(levels[std::size_t(band)] - middle) < m_agreeing)
                     collect(frame, isFirm ? m_firm[std::size_t(band)] : m_noise[std::size_t(band)]);
-            const float mean = truncatedMean(m_sample, std::exp(middle));
-            levels.back() =
-                mean > 0.0f && !m_sample.empty() ? lnMean(mean, std::ssize(m_sample), m_likeness) : levelNotKnown;
+            const float mean = truncatedMean(sample(), std::exp(middle));
+            levels.back() = mean > 0.0f && m_count > 0 ? lnMean(mean, m_count, m_likeness) : levelNotKnown;
             std::replace(levels.begin(), levels.end() - 1, levelNotKnown, levels.back());
         }
 
@@ -92,53 +125,32 @@ namespace {
             m_telling.clear();
             m_known.clear();
             for (Index band = 0; band < m_bands; ++band) {
-                m_sample.clear();
+                m_count = 0;
                 collect(frame, m_noise[std::size_t(band)]);
-                const std::ptrdiff_t count = std::ssize(m_sample);
-                if (count < fewestBandCells)
+                if (m_count < fewestBandCells)
                     continue;
-                const float median = medianNear(m_medians[std::size_t(band)]);
+                const float median = exponentialMedian(sample(), m_medians[std::size_t(band)]);
                 if (!(median > 0.0f))
                     continue;
                 m_medians[std::size_t(band)] = median;
                 levels[std::size_t(band)] =
-                    lnMean(truncatedMean(m_sample, median / std::numbers::ln2_v<float>), count, m_likeness);
+                    lnMean(truncatedMean(sample(), median / std::numbers::ln2_v<float>), m_count, m_likeness);
                 m_known.push_back(band);
-                if (2 * std::ssize(m_firm[std::size_t(band)])
-                    >= endCell(band, m_bands, m_cells) - firstCell(band, m_bands, m_cells))
+                if (m_isMostlyFirm[std::size_t(band)])
                     m_telling.push_back(band);
             }
         }
 
-        void collect(std::span<const float> frame, const std::vector<Index> &wanted)
+        /// Adds the frame over the background in those cells to the sample.
+        void collect(std::span<const float> frame, const std::vector<CellRange> &wanted)
         {
-            const auto first = Index(m_sample.size());
-            m_sample.resize(m_sample.size() + wanted.size());
-            std::ranges::transform(wanted, m_sample.begin() + first,
-                                   [&](Index cell) { return frame[std::size_t(cell)] * m_inverse[std::size_t(cell)]; });
+            for (const auto &[first, end] : wanted) {
+                multiply(frame.data() + first, m_inverse.data() + first, end - first, m_products.data() + m_count);
+                m_count += end - first;
+            }
         }
 
-        /// Median of the sample, faster if it is near that value.
-        float medianNear(float expected)
-        {
-            constexpr float nearRatio = 1.1f;
-            const float low = expected / nearRatio;
-            const float high = expected * nearRatio;
-            m_near.resize(m_sample.size());
-            Index below = 0;
-            Index near = 0;
-            for (const float value : m_sample) { // without branches, which none could foresee
-                m_near[std::size_t(near)] = value;
-                near += value >= low && value < high ? 1 : 0;
-                below += value < low ? 1 : 0;
-            }
-            m_near.resize(std::size_t(near));
-            const Index rank = (std::ssize(m_sample) - 1) / 2 - below;
-            if (rank < 0 || rank >= std::ssize(m_near))
-                return medianOf(m_sample);
-            std::nth_element(m_near.begin(), m_near.begin() + rank, m_near.end());
-            return m_near[std::size_t(rank)];
-        }
+        std::span<const float> sample() const { return std::span(m_products).first(std::size_t(m_count)); }
 
         /// Median; two values have no majority, so all count.
         static float middleOf(std::vector<float> &levels)
@@ -153,11 +165,12 @@ namespace {
         double m_likeness;
         float m_agreeing; ///< maximum distance of a sub-band's level from the median one
         std::vector<float> m_inverse;
-        std::vector<std::vector<Index>> m_noise; ///< cells of noise in each sub-band
-        std::vector<std::vector<Index>> m_firm;  ///< those whose background is firm
-        std::vector<float> m_medians;            ///< of each sub-band in the frame before
-        std::vector<float> m_sample;
-        std::vector<float> m_near;
+        std::vector<std::vector<CellRange>> m_noise; ///< cells of noise in each sub-band
+        std::vector<std::vector<CellRange>> m_firm;  ///< those whose background is firm
+        std::vector<bool> m_isMostlyFirm;            ///< each sub-band
+        std::vector<float> m_medians;                ///< of each sub-band in the frame before
+        std::vector<float> m_products;               ///< begins with the sample
+        Index m_count = 0;                           ///< cells of the sample
         std::vector<Index> m_telling;
         std::vector<Index> m_known;
     };

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace faintline {
 
@@ -62,30 +64,87 @@ namespace {
     };
 
     /// Of the values below a limit. In lanes, so that a value need not wait for the sum of those before it.
-    FAINTLINE_MULTIVERSION
-    Sum sumBelow(const float *values, std::size_t size, float limit)
+    template <int bytes>
+    [[gnu::always_inline]] inline Sum sumBelowBy(std::span<const float> values, float limit)
     {
         constexpr std::size_t lanes = 16;
-        std::array<double, lanes> sums{};
-        std::array<std::int32_t, lanes> counts{};
-        const std::size_t whole = size / lanes * lanes;
+        constexpr std::size_t perPart = Vector<double, bytes>::lanes;
+        constexpr std::size_t parts = lanes / perPart;
+        using Floats = Vector<float, bytes / 2>;
+        using Doubles = typename Vector<double, bytes>::Type;
+        Doubles sums[parts]{};
+        typename Vector<std::int32_t, bytes / 2>::Type counts[parts]{};
+        const std::size_t whole = values.size() / lanes * lanes;
         for (std::size_t i = 0; i < whole; i += lanes)
-            for (std::size_t lane = 0; lane < lanes; ++lane) {
-                const float value = values[i + lane];
-                sums[lane] += double(value < limit ? value : 0.0f);
-                counts[lane] += value < limit ? 1 : 0;
+#pragma GCC unroll 8
+            for (std::size_t part = 0; part < parts; ++part) {
+                const typename Floats::Type value =
+                    *reinterpret_cast<const typename Floats::Unaligned *>(values.data() + i + part * perPart);
+                counts[part] -= value < limit;
+                sums[part] += __builtin_convertvector(value < limit ? value : typename Floats::Type{}, Doubles);
             }
         Sum all;
-        for (std::size_t i = whole; i < size; ++i)
-            if (values[i] < limit) {
-                all.sum += double(values[i]);
+        for (const float value : values.subspan(whole))
+            if (value < limit) {
+                all.sum += double(value);
                 all.count += 1.0;
             }
         for (std::size_t lane = 0; lane < lanes; ++lane) {
-            all.sum += sums[lane];
-            all.count += double(counts[lane]);
+            all.sum += sums[lane / perPart][lane % perPart];
+            all.count += double(counts[lane / perPart][lane % perPart]);
         }
         return all;
+    }
+
+    Sum sumBelow(std::span<const float> values, float limit)
+    {
+        return withVectors([&](auto bytes) __attribute__((always_inline)) { return sumBelowBy<bytes>(values, limit); });
+    }
+
+    struct Split {
+        std::int32_t below; ///< number of values
+        float last;         ///< of these
+        float next;         ///< least of the others
+    };
+
+    /// Splits values that are not negative, whose bits therefore have their order.
+    template <int bytes>
+    [[gnu::always_inline]] inline Split splitAtBy(std::span<const float> values, float limit)
+    {
+        using Bits = Vector<std::int32_t, bytes>;
+        constexpr std::size_t lanes = Bits::lanes;
+        constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
+        const auto limitBits = std::bit_cast<std::int32_t>(limit);
+        typename Bits::Type below{};
+        typename Bits::Type last{};
+        typename Bits::Type next = last + none;
+        const std::size_t whole = values.size() / lanes * lanes;
+        for (std::size_t i = 0; i < whole; i += lanes) {
+            const typename Bits::Type bits = *reinterpret_cast<const typename Bits::Unaligned *>(values.data() + i);
+            const typename Bits::Type lower = bits < limitBits ? bits : typename Bits::Type{};
+            const typename Bits::Type upper = bits < limitBits ? typename Bits::Type{} + none : bits;
+            below -= bits < limitBits;
+            last = last < lower ? lower : last;
+            next = upper < next ? upper : next;
+        }
+        std::int32_t count = 0, greatest = 0, least = none;
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            count += below[lane];
+            greatest = std::max(greatest, last[lane]);
+            least = std::min(least, next[lane]);
+        }
+        for (const float value : values.subspan(whole)) {
+            const auto bits = std::bit_cast<std::int32_t>(value);
+            count += bits < limitBits ? 1 : 0;
+            greatest = std::max(greatest, bits < limitBits ? bits : 0);
+            least = std::min(least, bits < limitBits ? none : bits);
+        }
+        return {count, std::bit_cast<float>(greatest), std::bit_cast<float>(least)};
+    }
+
+    Split splitAt(std::span<const float> values, float limit)
+    {
+        return withVectors([&](auto bytes) __attribute__((always_inline)) { return splitAtBy<bytes>(values, limit); });
     }
 
     /// Cumulative sums of squares.
@@ -104,6 +163,27 @@ float medianOf(std::vector<float> &values)
     const auto middle = values.begin() + std::ptrdiff_t((values.size() - 1) / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
+}
+
+float exponentialMedian(std::span<const float> values, float expected)
+{
+    const auto rank = std::int32_t((values.size() - 1) / 2);
+    // Shares of an exponential law with the expected median, 1 - 2^(-y/expected), between which the median lies, and
+    // how many values lie below them: nearly in proportion, so that a few steps lead to it.
+    double low = 0.0, high = 1.0;
+    std::int32_t belowLow = 0, belowHigh = std::int32_t(values.size());
+    for (int step = 0; step < 12; ++step) {
+        const double share = low + (high - low) * (rank + 0.5 - belowLow) / (belowHigh - belowLow);
+        const Split split = splitAt(values, float(-double(expected) * std::log2(1.0 - share)));
+        if (split.below == rank)
+            return split.next;
+        if (split.below == rank + 1)
+            return split.last;
+        (split.below < rank ? low : high) = share;
+        (split.below < rank ? belowLow : belowHigh) = split.below;
+    }
+    std::vector<float> copy(values.begin(), values.end()); // of another law: values that are equal, for instance
+    return medianOf(copy);
 }
 
 double medianMean(int n)
@@ -129,7 +209,7 @@ float truncatedMean(std::span<const float> cells, float guess)
     const float kept =
         (1.0f - (1.0f + lineLimit) * std::exp(-lineLimit)) / (1.0f - std::exp(-lineLimit)); // E[y | y < cut]
     for (int pass = 0; pass < 2; ++pass) {
-        const auto [sum, count] = sumBelow(cells.data(), cells.size(), lineLimit * guess);
+        const auto [sum, count] = sumBelow(cells, lineLimit * guess);
         if (sum > 0.0)
             guess = float(sum / count) / kept;
     }

@@ -12,6 +12,10 @@ namespace faintline {
 /// The lower median; reorders the values. Precondition: not empty.
 float medianOf(std::vector<float> &values);
 
+/// The same of values that are not negative; fast if they are exponential with a median near the expected one, which is
+/// positive. Counts the values below a few limits, in vectors, and does not move them.
+float exponentialMedian(std::span<const float> values, float expected);
+
 /// Mean of the lower median of n independent exponentials of mean 1: Σ 1/(n-i), i = 0 … k-1, k its rank.
 double medianMean(int n);
 

@@ -53,6 +53,25 @@ private slots:
         QCOMPARE(medianOf(four), 2.0f);
     }
 
+    void exponentialMediansAreMedians()
+    {
+        for (const std::size_t count : {1, 2, 3, 24, 96, 751, 5000})
+            for (std::uint64_t stream = 0; stream < 20; ++stream) {
+                std::vector<float> values(count);
+                Random(33, stream).exponentials(values);
+                std::vector<float> few = values; // of which many are equal
+                for (float &value : few)
+                    value = std::floor(2.0f * value);
+                std::vector<float> sorted = values;
+                std::vector<float> sortedFew = few;
+                for (const float expected : {0.7f, 0.6f, 1e-3f, 1e3f}) {
+                    QCOMPARE(exponentialMedian(values, expected), medianOf(sorted));
+                    QCOMPARE(exponentialMedian(few, expected), medianOf(sortedFew));
+                }
+            }
+        QCOMPARE(exponentialMedian(std::vector<float>(50, 0.0f), 1.0f), 0.0f);
+    }
+
     void truncatedMeanOfExponentials()
     {
         Random random(32, 1);
