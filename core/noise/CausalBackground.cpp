@@ -65,9 +65,10 @@ void CausalBackground::renew()
 {
     m_sinceRenewal = 0;
     std::vector<float> block = m_windows;
+    BlockMedians typical(block, m_cells);
     if (m_bands > 0)
-        flatten(block, m_cells);
-    m_blocks.push_back(blockBackground(block, m_cells, m_geometry.halfWidthCells));
+        flatten(block, m_cells, typical);
+    m_blocks.push_back(blockBackground(typical, m_geometry.halfWidthCells));
     // Blocks this many renewals apart share no window.
     const auto apart =
         std::size_t((m_geometry.blockWindows + m_geometry.renewalWindows() - 1) / m_geometry.renewalWindows());

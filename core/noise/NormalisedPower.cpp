@@ -66,8 +66,9 @@ namespace {
                 block.insert(block.end(), row.begin(), row.end());
             }
             withoutUnobserved(block);
-            flatten(block, cells);
-            const BlockBackground own = blockBackground(block, cells, settings.halfWidthCells);
+            BlockMedians typical(block, cells);
+            flatten(block, cells, typical);
+            const BlockBackground own = blockBackground(typical, settings.halfWidthCells);
             background.lnPower.insert(background.lnPower.end(), own.medians.begin(), own.medians.end());
             rows.insert(rows.end(), own.lnPower.begin(), own.lnPower.end());
         }

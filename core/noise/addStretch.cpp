@@ -67,7 +67,7 @@ namespace {
         bool isBetter(double likeness)
         {
             divideByNoise(0);
-            m_rest = blockBackground(m_frames, m_cells, m_half);
+            m_rest = blockBackground({m_frames, m_cells}, m_half);
             for (Index frame = 0; frame < m_stretchFrames.count; ++frame)
                 divide(frameOf(m_frames, frame), m_rest.lnPower);
             // Signals also change with time but are not sources of noise, so that nothing but chance may remain.

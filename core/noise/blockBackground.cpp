@@ -10,10 +10,6 @@
 
 namespace faintline {
 
-namespace {
-
-} // namespace
-
 double mostNoiseRatio(double frames)
 {
     return 1.0 + 5.0 / std::sqrt(frames);
@@ -37,31 +33,41 @@ std::vector<bool> refine(const std::vector<float> &values, std::vector<float> &m
     return isNoise;
 }
 
-BlockBackground blockBackground(const std::vector<float> &frames, Index cells, Index half)
+BlockMedians::BlockMedians(const std::vector<float> &block, Index cells) : ofCells(std::size_t(cells), 0.0f)
 {
-    const Index frameCount = std::ssize(frames) / cells;
-    std::vector<float> loud; // frames without digital silence
-    double strongest = 0.0;
-    for (Index frame = 0; frame < frameCount; ++frame) {
-        const auto row = frames.begin() + frame * cells;
-        const float peak = *std::max_element(row, row + cells);
-        strongest = std::max(strongest, double(peak));
-        if (peak > 0.0f)
-            loud.insert(loud.end(), row, row + cells);
+    const Index rows = std::ssize(block) / cells;
+    std::vector<Index> loud;
+    for (Index row = 0; row < rows; ++row)
+        if (const float peak = largest(std::span(block).subspan(std::size_t(row * cells), std::size_t(cells)));
+            peak > 0.0f) {
+            loud.push_back(row);
+            strongest = std::max(strongest, peak);
+        }
+    frames = std::ssize(loud);
+    if (frames == rows && rows > 0) {
+        columnMedians(block, ofCells);
+    } else if (frames > 0) {
+        std::vector<float> together;
+        for (const Index row : loud)
+            together.insert(together.end(), block.begin() + row * cells, block.begin() + (row + 1) * cells);
+        columnMedians(together, ofCells);
     }
-    std::vector<float> ln(std::size_t(cells), NoiseBackground::silence);
-    if (loud.empty())
-        return {ln, ln, std::vector<bool>(std::size_t(cells), true), std::vector<bool>(std::size_t(cells), true)};
-    const auto used = int(std::ssize(loud) / cells);
-    const double bias = std::log(medianMean(used));
-    const double floor = std::log(strongest * roundingFloor);
-    columnMedians(loud, ln);
-    for (float &value : ln) {
-        const auto power = double(value);
-        value = float(std::max(floor, power > 0.0 ? std::log(power) - bias : floor));
+}
+
+BlockBackground blockBackground(const BlockMedians &medians, Index half)
+{
+    if (medians.frames == 0) {
+        const std::vector<float> silent(medians.ofCells.size(), NoiseBackground::silence);
+        const std::vector<bool> all(silent.size(), true);
+        return {silent, silent, all, all};
     }
+    const double bias = std::log(medianMean(int(medians.frames)));
+    const double floor = std::log(double(medians.strongest) * roundingFloor);
+    std::vector<float> ln;
+    for (const float median : medians.ofCells)
+        ln.push_back(float(std::max(floor, median > 0.0f ? std::log(double(median)) - bias : floor)));
     std::vector<float> background = runningMedian(ln, half);
-    std::vector<bool> isNoise = refine(ln, background, half, mostNoiseRatio(double(used)));
+    std::vector<bool> isNoise = refine(ln, background, half, mostNoiseRatio(double(medians.frames)));
     std::vector<bool> isFirm(isNoise.size());
     for (std::size_t cell = 0; cell < background.size(); ++cell) {
         isNoise[cell] = isNoise[cell] && double(background[cell]) > floor + roundingNearnessLn;
@@ -71,19 +77,13 @@ BlockBackground blockBackground(const std::vector<float> &frames, Index cells, I
     return {std::move(ln), std::move(background), std::move(isNoise), std::move(isFirm)};
 }
 
-std::vector<float> flatten(std::vector<float> &frames, Index cells)
+std::vector<float> flatten(std::vector<float> &frames, Index cells, BlockMedians &medians)
 {
     const Index frameCount = std::ssize(frames) / cells;
     std::vector<float> taken(std::size_t(frameCount), 0.0f);
-    std::vector<float> loud;
-    for (Index frame = 0; frame < frameCount; ++frame)
-        if (const auto row = frames.begin() + frame * cells;
-            std::any_of(row, row + cells, [](float y) { return y > 0.0f; }))
-            loud.insert(loud.end(), row, row + cells);
-    if (loud.empty())
+    if (medians.frames == 0)
         return taken;
-    std::vector<float> typical(static_cast<std::size_t>(cells));
-    columnMedians(loud, typical);
+    const std::vector<float> &typical = medians.ofCells;
     const Index stride = (cells + 499) / 500;
     const double chance = 4.5 * medianScatter(double((cells + stride - 1) / stride));
     std::vector<float> ratios;
@@ -102,6 +102,8 @@ std::vector<float> flatten(std::vector<float> &frames, Index cells)
         for (Index cell = 0; cell < cells; ++cell)
             row[cell] /= ratio;
     }
+    if (std::ranges::any_of(taken, [](float ln) { return ln != 0.0f; }))
+        medians = BlockMedians(frames, cells);
     return taken;
 }
 

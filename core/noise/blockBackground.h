@@ -23,12 +23,22 @@ struct BlockBackground {
     std::vector<bool> isFirm;   ///< noise well above rounding
 };
 
-/// The background of one block of frames (frames × cells).
-BlockBackground blockBackground(const std::vector<float> &frames, Index cells, Index half);
+/// What a block of frames (frames × cells) says of each cell. Frames of digital silence do not count.
+struct BlockMedians {
+    std::vector<float> ofCells; ///< over time; 0 if all is silent
+    Index frames = 0;           ///< number of frames that count
+    float strongest = 0.0f;     ///< value of all
+
+    BlockMedians(const std::vector<float> &block, Index cells);
+};
+
+/// The background of one block of frames.
+BlockBackground blockBackground(const BlockMedians &medians, Index half);
 
 /// Scales frames (frames × cells) that are clearly louder or softer than most to one level, so that medians over time
 /// give the noise colour independent of its level; returns the change of each frame, ln. The level is that of the
-/// median cell relative to the medians over time, from at most 500 cells. Digital silence is not changed.
-std::vector<float> flatten(std::vector<float> &frames, Index cells);
+/// median cell relative to the medians over time, from at most 500 cells. Digital silence is not changed. `medians`:
+/// those of the frames before, and afterwards.
+std::vector<float> flatten(std::vector<float> &frames, Index cells, BlockMedians &medians);
 
 } // namespace faintline

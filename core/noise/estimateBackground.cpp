@@ -165,9 +165,10 @@ namespace {
                 m_frames.read(firstUsed + i * m_stride, together,
                               std::span(m_block).subspan(std::size_t(i * m_cells), std::size_t(together * m_cells)));
             }
+            BlockMedians typical(m_block, m_cells);
             const std::vector<float> taken =
-                hasLevels() ? flatten(m_block, m_cells) : std::vector<float>(std::size_t(used), 0.0f);
-            const BlockBackground own = blockBackground(m_block, m_cells, m_settings.halfWidthCells);
+                hasLevels() ? flatten(m_block, m_cells, typical) : std::vector<float>(std::size_t(used), 0.0f);
+            const BlockBackground own = blockBackground(typical, m_settings.halfWidthCells);
             std::vector<float> &medians = m_background->lnPower;
             medians.insert(medians.end(), own.medians.begin(), own.medians.end());
             m_rows.lnPower.insert(m_rows.lnPower.end(), own.lnPower.begin(), own.lnPower.end());

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 
 namespace faintline {
@@ -45,7 +46,22 @@ namespace {
         withVectors([&](auto bytes) __attribute__((always_inline)) { rankedBy<bytes>(columns, rows, rank, out); });
     }
 
+    /// By their bits, whose maximum the compiler vectorises.
+    FAINTLINE_MULTIVERSION
+    std::int32_t largestBits(const float *values, std::size_t size)
+    {
+        std::int32_t most = 0;
+        for (std::size_t i = 0; i < size; ++i)
+            most = std::max(most, std::bit_cast<std::int32_t>(values[i]));
+        return most;
+    }
+
 } // namespace
+
+float largest(std::span<const float> values)
+{
+    return std::bit_cast<float>(largestBits(values.data(), values.size()));
+}
 
 void columnMedians(std::span<const float> frames, std::span<float> out)
 {

@@ -13,6 +13,9 @@ namespace faintline {
 /// negative or NaN. Works bit by bit in many columns at once, 31 comparisons per value. Oracle: std::nth_element.
 void columnMedians(std::span<const float> frames, std::span<float> out);
 
+/// The largest of values that are not negative; 0 if there are none.
+float largest(std::span<const float> values);
+
 /// Running median of a sequence over ±half, extended beyond its ends by point reflection about its robust ends.
 std::vector<float> runningMedian(const std::vector<float> &sequence, Index half);
 

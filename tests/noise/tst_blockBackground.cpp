@@ -94,7 +94,7 @@ private slots:
         double sum = 0.0;
         constexpr int blocks = 20;
         for (std::uint64_t block = 0; block < blocks; ++block) {
-            const BlockBackground found = blockBackground(noise(48, block, flat), cells, 24);
+            const BlockBackground found = blockBackground({noise(48, block, flat), cells}, 24);
             sum += meanOf(found.lnPower);
             // A factor of 1.72 either way is 2.6 standard errors of the logarithm of a median of 48.
             QVERIFY(std::count(found.isNoise.begin(), found.isNoise.end(), true) > cells - 15);
@@ -109,7 +109,7 @@ private slots:
     void aSlopeIsFollowed()
     {
         const auto slope = [](Index cell) { return std::exp(0.02 * double(cell)); };
-        const BlockBackground found = blockBackground(noise(200, 30, slope), cells, 24);
+        const BlockBackground found = blockBackground({noise(200, 30, slope), cells}, 24);
         double sum = 0.0;
         for (Index cell = 0; cell < cells; ++cell) {
             const double off = double(found.lnPower[std::size_t(cell)]) - 0.02 * double(cell);
@@ -124,8 +124,8 @@ private slots:
     void aLineIsNoNoise()
     {
         const auto with = [](Index cell) { return cell == 200 ? 20.0 : 1.0; };
-        const BlockBackground without = blockBackground(noise(100, 31, flat), cells, 24);
-        const BlockBackground found = blockBackground(noise(100, 31, with), cells, 24);
+        const BlockBackground without = blockBackground({noise(100, 31, flat), cells}, 24);
+        const BlockBackground found = blockBackground({noise(100, 31, with), cells}, 24);
         QVERIFY(without.isNoise[200] && !found.isNoise[200] && !found.isFirm[200]);
         QVERIFY(std::abs(double(found.medians[200] - without.medians[200]) - std::log(20.0)) < 1e-4);
         for (Index cell = 0; cell < cells; ++cell)
@@ -139,7 +139,7 @@ private slots:
             std::vector<float> values;
             for (Index frame = 0; frame < frames; ++frame)
                 values.insert(values.end(), std::size_t(cells), frame == 0 ? 3.0f : 9.0f);
-            const BlockBackground found = blockBackground(values, cells, 24);
+            const BlockBackground found = blockBackground({values, cells}, 24);
             const double expected =
                 frames == 1 ? std::log(3.0) : std::log(3.0 / 0.5); // the lower of two has a mean of ½
             for (const float median : found.medians)
@@ -155,14 +155,14 @@ private slots:
             withSilence.insert(withSilence.end(), std::size_t(cells), 0.0f);
             withSilence.insert(withSilence.end(), frames.begin() + frame * cells, frames.begin() + (frame + 1) * cells);
         }
-        const BlockBackground a = blockBackground(frames, cells, 24);
-        const BlockBackground b = blockBackground(withSilence, cells, 24);
+        const BlockBackground a = blockBackground({frames, cells}, 24);
+        const BlockBackground b = blockBackground({withSilence, cells}, 24);
         QVERIFY(a.lnPower == b.lnPower && a.medians == b.medians && a.isNoise == b.isNoise);
     }
 
     void silenceAllOver()
     {
-        const BlockBackground found = blockBackground(std::vector<float>(std::size_t(10 * cells), 0.0f), cells, 24);
+        const BlockBackground found = blockBackground({std::vector<float>(std::size_t(10 * cells), 0.0f), cells}, 24);
         QVERIFY(std::all_of(found.lnPower.begin(), found.lnPower.end(),
                             [](float ln) { return ln == NoiseBackground::silence; }));
         QVERIFY(std::find(found.isNoise.begin(), found.isNoise.end(), false) == found.isNoise.end());
@@ -173,7 +173,7 @@ private slots:
     {
         const auto band = [](Index cell) { return cell < 200 ? 1.0 : 1e-18; };
         const std::vector<float> frames = noise(100, 33, band);
-        const BlockBackground found = blockBackground(frames, cells, 24);
+        const BlockBackground found = blockBackground({frames, cells}, 24);
         const double floor = std::log(double(*std::max_element(frames.begin(), frames.end())) * 1e-13);
         for (Index cell = 240; cell < cells; ++cell) {
             QVERIFY(std::abs(double(found.lnPower[std::size_t(cell)]) - floor) < 1e-4);
@@ -189,8 +189,10 @@ private slots:
             for (Index cell = 0; cell < cells; ++cell)
                 frames[std::size_t(frame * cells + cell)] *= 8.0f;
         const std::vector<float> changed = frames;
-        const std::vector<float> taken = flatten(frames, cells);
+        BlockMedians medians(frames, cells);
+        const std::vector<float> taken = flatten(frames, cells, medians);
         QCOMPARE(taken.size(), std::size_t(60));
+        QVERIFY(medians.ofCells == BlockMedians(frames, cells).ofCells);
         for (Index frame = 0; frame < 60; ++frame) {
             const float ln = taken[std::size_t(frame)];
             const bool isLoud = frame >= 10 && frame < 15;
@@ -207,7 +209,8 @@ private slots:
     {
         std::vector<float> frames = noise(300, 35, flat);
         const std::vector<float> before = frames;
-        const std::vector<float> taken = flatten(frames, cells);
+        BlockMedians medians(frames, cells);
+        const std::vector<float> taken = flatten(frames, cells, medians);
         QVERIFY(std::count(taken.begin(), taken.end(), 0.0f) >= 299); // beyond 4.5 errors hardly ever
         for (Index frame = 0; frame < 300; ++frame) {
             const auto row = frames.begin() + frame * cells;
@@ -219,10 +222,12 @@ private slots:
     void flatteningSilence()
     {
         std::vector<float> silent(std::size_t(5 * cells), 0.0f);
-        QCOMPARE(flatten(silent, cells), std::vector<float>(5, 0.0f));
+        BlockMedians none(silent, cells);
+        QCOMPARE(flatten(silent, cells, none), std::vector<float>(5, 0.0f));
         std::vector<float> frames = noise(20, 36, flat);
         std::fill_n(frames.begin() + 3 * cells, cells, 0.0f);
-        const std::vector<float> taken = flatten(frames, cells);
+        BlockMedians medians(frames, cells);
+        const std::vector<float> taken = flatten(frames, cells, medians);
         QCOMPARE(taken[3], 0.0f);
         QVERIFY(std::all_of(frames.begin() + 3 * cells, frames.begin() + 4 * cells, [](float y) { return y == 0.0f; }));
     }
