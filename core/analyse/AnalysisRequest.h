@@ -29,9 +29,9 @@ struct PicturesSoFar {
 /// Called by the computing thread a few times per second. It does not change any result.
 using PictureSink = std::function<void(const PicturesSoFar &)>;
 
-/// Scope of an analysis: everything; its tracks, without pictures and checkpoints; or a trial of its settings, whose
-/// tracks are also not tested against the recording's own noise (ownNoiseLaw.h), which is not searched for signals
-/// behind others (secondLook.h), and whose tracks are not trimmed to their signals (trimEnds.h).
+/// Scope of an analysis: everything; its tracks, without pictures, histogram and checkpoints; or a trial of its
+/// settings, whose tracks are also not tested against the recording's own noise (ownNoiseLaw.h), which is not searched
+/// for signals behind others (secondLook.h), and whose tracks are not trimmed to their signals (trimEnds.h).
 enum class AnalysisDepth { Whole, Tracks, Trial };
 
 /// What an analysis starts from, what it delivers while it runs, and how far it goes.

@@ -178,9 +178,11 @@ namespace {
 
         RunPictures pictures(analysis, request.depth);
         PingProducts pings(analysis);
-        analysis.statisticCounts.assign(256, 0.0);
-        if (request.depth == AnalysisDepth::Whole)
+        const bool isWhole = request.depth == AnalysisDepth::Whole;
+        if (isWhole) {
+            analysis.statisticCounts.assign(256, 0.0);
             analysis.checkpoints = {checkpointInterval(analysis), memoryShares::checkpoints};
+        }
         if (request.statisticBegins)
             request.statisticBegins(frames);
         FrameStream stream(frames, context.threads > 1);
@@ -192,7 +194,7 @@ namespace {
             for (std::size_t at = 0; at < block.size(); at += cells) {
                 const Index frame = first + Index(at / cells);
                 const auto y = std::span<const float>(block).subspan(at, cells);
-                if (request.depth == AnalysisDepth::Whole && analysis.checkpoints.lacks(frame))
+                if (isWhole && analysis.checkpoints.lacks(frame))
                     if (auto state = chain->state())
                         analysis.checkpoints.keep(frame, state, state->bytes());
                 chain->update(frame, y, std::span(statistic).subspan(at, cells));
@@ -201,7 +203,8 @@ namespace {
                 analysis.continuedFraction.push_back(float(regulation.continuedFraction));
                 pings.take(frame, y, *chain);
             }
-            countValues(statistic, analysis.statisticCounts);
+            if (isWhole)
+                countValues(statistic, analysis.statisticCounts);
             pictures.append(block, statistic, publisher);
             if (request.statistic)
                 request.statistic(first, statistic);

@@ -48,7 +48,8 @@ struct Analysis : AnalysisPlan {
     std::vector<float> lnK;               ///< per frame
     NoiseBand lnKBand;                    ///< its range on noise, under a law that regulates it (regulation.h)
     std::vector<float> continuedFraction; ///< per frame
-    std::vector<double> statisticCounts;  ///< cells whose D lies in [i/4 - 4, (i+1)/4 - 4) nat: histogram of the data
+    /// Cells whose D lies in [i/4 - 4, (i+1)/4 - 4) nat: histogram of the data. Of a whole analysis (AnalysisDepth).
+    std::vector<double> statisticCounts;
 
     /// States of the chain, evenly spaced, for repeating a part of the run: ≤ 32 MiB for any number of tracks; none for
     /// detectors that cannot save their state.
