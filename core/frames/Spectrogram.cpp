@@ -379,8 +379,7 @@ void Spectrogram::transformFrame(std::span<const float> samples, Fft::Buffer &bu
         applyWindowComplex(samples.data(), m_window.data(), window, input.data());
     else
         applyWindow(samples.data(), m_window.data(), window, input.data());
-    std::fill(input.begin() + std::ptrdiff_t(samples.size()), input.end(), 0.0f);
-    m_fft->run(buffer);
+    m_fft->run(buffer); // the rest of the input is 0 from the beginning
 
     const auto *bins = reinterpret_cast<const float *>(buffer.output().data());
     const Index n = m_fft->length();

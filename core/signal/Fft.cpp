@@ -40,12 +40,13 @@ Fft::Fft(int length, Input input) : m_length(length), m_input(input)
     if (length < 1)
         throw Error("transform length " + std::to_string(length), "must be at least 1");
     const auto scratch = buffer();
+    constexpr unsigned flags = FFTW_ESTIMATE | FFTW_PRESERVE_INPUT;
     const std::scoped_lock lock(plannerMutex);
     if (input == Input::Real)
-        m_plan = fftwf_plan_dft_r2c_1d(length, scratch->m_input.data(), fftw(scratch->m_output), FFTW_ESTIMATE);
+        m_plan = fftwf_plan_dft_r2c_1d(length, scratch->m_input.data(), fftw(scratch->m_output), flags);
     else
         m_plan = fftwf_plan_dft_1d(length, reinterpret_cast<fftwf_complex *>(scratch->m_input.data()),
-                                   fftw(scratch->m_output), FFTW_FORWARD, FFTW_ESTIMATE);
+                                   fftw(scratch->m_output), FFTW_FORWARD, flags);
 }
 
 Fft::~Fft()

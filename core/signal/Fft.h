@@ -40,9 +40,10 @@ public:
         std::span<std::complex<float>> m_output;
     };
 
+    /// Its input is 0.
     std::unique_ptr<Buffer> buffer() const;
 
-    /// Transforms the buffer's input into its output; the input may be overwritten.
+    /// Transforms the buffer's input into its output; the input remains.
     void run(Buffer &buffer) const;
 
     int length() const { return m_length; }
