@@ -1,6 +1,5 @@
 #include "refine/ownNoiseLaw.h"
 
-#include "noise/levels.h"
 #include "refine/constants.h"
 #include "refine/pathStrips.h"
 #include "refine/secondLook.h"
@@ -189,8 +188,10 @@ std::vector<float> NoiseSample::noiseIn(Index cell) const
     const auto count = double(values.size());
     if (values.size() < 2 || count < leastObservedShare * double(m_rows))
         return {};
-    const double level = double(medianOf(values)) / std::numbers::ln2;
-    return level > lineMedianRatio + 4.0 * std::sqrt(2.0 / count) ? std::vector<float>() : values;
+    // A line's median is above the limit if no more values lie below it than below a median.
+    const double limit = lineMedianRatio + 4.0 * std::sqrt(2.0 / count);
+    const auto below = std::ranges::count_if(values, [&](float y) { return !(double(y) / std::numbers::ln2 > limit); });
+    return below <= (std::ssize(values) - 1) / 2 ? std::vector<float>() : values;
 }
 
 void NoiseSample::mask(const TrackPoint &point, Index before, Index behind, Index half)
@@ -251,7 +252,7 @@ double evidenceLeft(const PathStrip &strip, const OwnNoiseLaw &law)
 
 void holdAgainstOwnNoise(Analysis &analysis, const RunContext &context)
 {
-    if (!looksTwice(analysis) || !analysis.settings.family.isNone())
+    if (!looksTwice(analysis) || !analysis.settings.family.isNone() || analysis.tracks.empty())
         return;
     const OwnNoiseLaw law = ownNoiseLaw(analysis, analysis.tracks, context.part(0.0, 0.5));
     if (law.isAsAssumed())
