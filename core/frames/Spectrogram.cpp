@@ -362,8 +362,7 @@ void Spectrogram::readRun(Index first, Index count, std::vector<float> &samples,
     for (Index frame = 0; frame < count; ++frame) {
         const std::size_t offset = std::size_t(frame * m_hopSamples) * floats;
         const std::span<float> values = out.subspan(std::size_t(frame) * bins, bins);
-        const Index start = m_firstSample + (first + frame) * m_hopSamples;
-        if (m_recording->isObserved(m_selection.channel, start, m_windowSamples)) // observed.h
+        if (isObserved(first + frame))
             transformFrame(std::span(samples).subspan(offset, std::size_t(m_windowSamples) * floats), buffer, values);
         else
             std::fill(values.begin(), values.end(), 0.0f);

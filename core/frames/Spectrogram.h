@@ -89,6 +89,14 @@ public:
     /// follows another law (χ² of one degree of freedom), and at 0 Hz there is often a constant.
     bool hasRealEnds() const;
 
+    /// Whether all samples in a frame's window were observed (Recording::isObserved). Otherwise the frame was not
+    /// observed: its power is 0 throughout, as in digital silence, so it does not affect the noise estimate, and its
+    /// normalised value is NaN.
+    bool isObserved(Index frame) const
+    {
+        return m_recording->isObserved(m_selection.channel, m_firstSample + frame * m_hopSamples, m_windowSamples);
+    }
+
     /// Computes frames first … first+count-1 into `out`, count × frequency().count values, row by row, on as many
     /// threads as the context allows.
     void read(Index first, Index count, std::span<float> out, const RunContext &context = {}) const;

@@ -1,7 +1,6 @@
 #include "noise/CausalSpectrogram.h"
 
 #include "base/memoryShares.h"
-#include "frames/observed.h"
 #include "noise/FrameNormaliser.h"
 #include "noise/NoiseNormaliser.h"
 #include "noise/coarseFrames.h"
@@ -126,7 +125,7 @@ void CausalSpectrogram::read(Index first, Index count, std::span<float> out) con
         const NoiseBackground &background = step();
         const std::span<float> values = out.subspan(std::size_t(i) * cells, cells);
         normaliser.normalise(values, background, 0.0);
-        if (!isObserved(*m_spectrogram, first + i))
+        if (!m_spectrogram->isObserved(first + i))
             std::fill(values.begin(), values.end(), std::numeric_limits<float>::quiet_NaN());
     }
 }

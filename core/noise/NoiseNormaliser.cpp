@@ -1,6 +1,5 @@
 #include "noise/NoiseNormaliser.h"
 
-#include "frames/observed.h"
 #include "noise/FrameNormaliser.h"
 #include "noise/stopBands.h"
 
@@ -25,7 +24,7 @@ void NormalisedSpectrogram::read(Index first, Index count, std::span<float> out)
     FrameNormaliser normaliser(*m_spectrogram, m_settings.followLevel);
     for (Index i = 0; i < count; ++i) {
         const std::span<float> values = out.subspan(std::size_t(i) * cells, cells);
-        if (!isObserved(*m_spectrogram, first + i)) {
+        if (!m_spectrogram->isObserved(first + i)) {
             std::ranges::fill(values, notObserved);
             continue;
         }

@@ -1,6 +1,5 @@
 #include "noise/edgeCorrection.h"
 
-#include "frames/observed.h"
 #include "noise/FrameNormaliser.h"
 #include "noise/constants.h"
 #include "noise/levels.h"
@@ -99,7 +98,7 @@ namespace {
         void add(Index frame)
         {
             const double seconds = m_spectrogram.time().value(double(frame));
-            if (!isObserved(m_spectrogram, frame))
+            if (!m_spectrogram.isObserved(frame))
                 return m_before.clear();
             m_background.readLnPower(seconds, m_ln);
             if (*std::max_element(m_ln.begin(), m_ln.end()) <= NoiseBackground::silence)

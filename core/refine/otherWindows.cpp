@@ -1,7 +1,6 @@
 #include "refine/otherWindows.h"
 
 #include "frames/Window.h"
-#include "frames/observed.h"
 #include "plan/Analysis.h"
 #include "plan/sureStatistic.h"
 #include "refine/constants.h"
@@ -58,7 +57,7 @@ namespace {
                 const double hz = axis.value(point.position);
                 m_hz.push_back(hz);
                 const bool isThere = // what was not observed is no pause
-                    track.isPresent(i) || !isObserved(*analysis.frames->spectrogram(), track.points[i].frame);
+                    track.isPresent(i) || !analysis.frames->spectrogram()->isObserved(track.points[i].frame);
                 m_bands.push_back(isThere ? Band{std::min(hz, axis.value(double(point.low))),
                                                  std::max(hz, axis.value(double(point.high)))}
                                           : Band{});

@@ -1,7 +1,6 @@
 #include "analyse/analyse.h"
 #include "analyse/events.h"
 #include "base/Random.h"
-#include "frames/observed.h"
 #include "inspect/noiseLaw.h"
 #include "noise/CausalSpectrogram.h"
 #include "scene/InjectedRecording.h"
@@ -72,7 +71,7 @@ void tst_gaps::framesAreNotObserved()
     std::vector<float> y(cells);
     for (Index frame = 0; frame < frames->time().count; ++frame) {
         const bool isTorn = frame * 1000 < gapEnd && frame * 1000 + 2000 > gapBegin;
-        QCOMPARE(isObserved(*spectrogram, frame), !isTorn);
+        QCOMPARE(spectrogram->isObserved(frame), !isTorn);
         spectrogram->read(frame, 1, power);
         frames->read(frame, 1, y);
         QCOMPARE(std::all_of(power.begin(), power.end(), [](float value) { return value == 0.0f; }), isTorn);
@@ -110,7 +109,7 @@ void tst_gaps::linesGoOn()
              QByteArray::number(found[0].position.back() - (180.0 + 0.1 * middle)));
     const Track &track = analysis->tracks.front();
     for (const std::size_t i : track.presentPoints())
-        QVERIFY(isObserved(*analysis->frames->spectrogram(), track.points[i].frame));
+        QVERIFY(analysis->frames->spectrogram()->isObserved(track.points[i].frame));
     QVERIFY(found[0].onsetSeconds < 10.0 && found[0].endSeconds > 230.0);
     QVERIFY(std::abs(found[0].driftPerSecond - 0.1) < 0.005);
     QVERIFY(events(*analysed(holed(0.15, true))).size() >= 2);
