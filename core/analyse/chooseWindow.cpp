@@ -3,7 +3,6 @@
 #include "analyse/constants.h"
 #include "analyse/runAnalysis.h"
 #include "plan/Analysis.h"
-#include "plan/sureStatistic.h"
 #include "refine/otherWindows.h"
 #include "refine/ownNoiseLaw.h"
 #include "refine/secondLook.h"
@@ -198,7 +197,7 @@ namespace {
 
         static bool isSure(const Analysis &analysis)
         {
-            return std::ranges::any_of(analysis.tracks, [limit = sureStatistic(analysis)](const Track &track) {
+            return std::ranges::any_of(analysis.tracks, [limit = analysis.sureStatistic()](const Track &track) {
                 return track.peakStatistic >= limit;
             });
         }
@@ -209,7 +208,7 @@ namespace {
                 return TracksOnAxes{analysis.tracks, analysis.time(), analysis.grid().axes.back(),
                                     resolutionHz(analysis)};
             };
-            return energyKept(onAxes(shorter), onAxes(longer), sureStatistic(shorter));
+            return energyKept(onAxes(shorter), onAxes(longer), shorter.sureStatistic());
         }
 
         RecordingPointer m_recording;

@@ -3,7 +3,6 @@
 #include "analyse/events.h"
 #include "base/numberText.h"
 #include "base/oneLine.h"
-#include "plan/sureStatistic.h"
 
 #include <algorithm>
 #include <cmath>
@@ -84,7 +83,7 @@ namespace {
         std::vector<const Track *> sure;
         for (const Track &track : analysis.tracks)
             if (track.windowSeconds == 0.0 // others were resolved by another window
-                && statisticOf(track, analysis) >= sureStatistic(analysis) && std::ssize(track.points) >= leastFrames)
+                && statisticOf(track, analysis) >= analysis.sureStatistic() && std::ssize(track.points) >= leastFrames)
                 sure.push_back(&track);
         std::sort(sure.begin(), sure.end(),
                   [](const Track *a, const Track *b) { return a->points.front().frame < b->points.front().frame; });

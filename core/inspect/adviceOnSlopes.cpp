@@ -2,7 +2,6 @@
 
 #include "analyse/events.h"
 #include "base/driftWords.h"
-#include "plan/sureStatistic.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +35,7 @@ namespace {
         std::ptrdiff_t all = 0;
         for (const Track &track : analysis.tracks) {
             const auto length = std::ssize(track.points);
-            if (statisticOf(track, analysis) < sureStatistic(analysis) || length < trackFrames)
+            if (statisticOf(track, analysis) < analysis.sureStatistic() || length < trackFrames)
                 continue;
             all += length;
             if (!keepsTo(track, slope, analysis.model.space))

@@ -4,6 +4,7 @@
 #include "noise/NoiseBackground.h"
 #include "plan/AnalysisSettings.h"
 #include "plan/Calibration.h"
+#include "plan/constants.h"
 
 #include <memory>
 #include <vector>
@@ -33,6 +34,9 @@ struct AnalysisPlan {
 
     const Axis &time() const { return frames->time(); }
     const Grid &grid() const { return frames->grid(); }
+
+    /// The statistic, in nats, above which a track is about a hundred times rarer on noise than specified.
+    double sureStatistic() const { return threshold + sureMarginNats; }
 
     bool isBank() const { return !bank.empty(); }
     std::size_t modelCount() const { return isBank() ? bank.size() : 1; }

@@ -2,7 +2,6 @@
 
 #include "frames/FrameStream.h"
 #include "plan/chain.h"
-#include "plan/sureStatistic.h"
 #include "refine/constants.h"
 
 #include <algorithm>
@@ -211,7 +210,7 @@ std::vector<Track> searchBehind(const Analysis &analysis, const Explanations &ex
     for (const Explanations::RaisedStretch &stretch : explanations.stretches())
         std::ranges::move(searchIn(stretch, analysis, explanations, hidden, context), std::back_inserter(found));
     const auto reach = Index(std::ceil(analysis.frames->geometry().binsPerCell));
-    const double sure = sureStatistic(analysis);
+    const double sure = analysis.sureStatistic();
     std::erase_if(found, [&](const Track &track) {
         return track.peakStatistic < sure || hiddenShare(track, explanations, reach) < hiddenPointsShare;
     });

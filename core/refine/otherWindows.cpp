@@ -2,7 +2,6 @@
 
 #include "frames/Window.h"
 #include "plan/Analysis.h"
-#include "plan/sureStatistic.h"
 #include "refine/constants.h"
 #include "refine/levelBeside.h"
 #include "refine/numberByDetection.h"
@@ -425,7 +424,7 @@ namespace {
             std::vector<Track> tracks = withEndsTrimmed(m_other->tracks);
             std::erase_if(tracks, [this](const Track &track) {
                 const Curve curve(track, *m_other);
-                return track.peakStatistic < sureStatistic(*m_other) || track.points.size() < 2
+                return track.peakStatistic < m_other->sureStatistic() || track.points.size() < 2
                        || kindOf(track, *m_other) == SignalKind::Spread || isKnown(curve)
                        || !(isShorter() || isSeenBetter(curve) || followersOf(curve).size() > 1);
             });
@@ -618,7 +617,7 @@ namespace {
             divideByAreas(strip);
             divideBySurroundings(strip, x);
             std::vector<PathPart> result;
-            if (gainOf(strip) < sureStatistic(*m_other))
+            if (gainOf(strip) < m_other->sureStatistic())
                 return result;
             m_model.ends = {.absentBefore = true, .absentAfter = true};
             const BothWays seen = lookBothWays(strip, m_model);
@@ -635,7 +634,7 @@ namespace {
                     continue;
                 const PathStrip part = partOf(strip, from, to);
                 const double gain = gainOf(part);
-                if (gain * evidenceLeft(part, *m_noise) < sureStatistic(*m_other))
+                if (gain * evidenceLeft(part, *m_noise) < m_other->sureStatistic())
                     continue;
                 result.push_back({partOf(x, from, to, gain), before});
                 loss = absence = 0.0;

@@ -1,7 +1,6 @@
 #include "refine/signalKind.h"
 
 #include "frames/observed.h"
-#include "plan/sureStatistic.h"
 #include "refine/constants.h"
 
 #include <algorithm>
@@ -15,7 +14,7 @@ namespace {
     {
         if (track.windowSeconds > 0.0 || !plan.settings.family.isNone()
             || plan.model.space.axes().front().rateChange.front() < slowLawProbability
-            || track.peakStatistic < sureStatistic(plan))
+            || track.peakStatistic < plan.sureStatistic())
             return false;
         const std::vector<std::size_t> present = track.presentPoints();
         const auto count = double(present.size());
