@@ -5,9 +5,9 @@
 #include "base/numberText.h"
 #include "base/oneLine.h"
 #include "calibrate/falseAlarmWords.h"
-#include "detect/makeDetector.h"
 #include "inspect/advice.h"
 #include "inspect/noiseLaw.h"
+#include "plan/makeDetector.h"
 #include "refine/subtractLines.h"
 
 #include <cstdio>

@@ -33,7 +33,7 @@
 #include "app/window/Opener.h"
 #include "app/window/Panels.h"
 #include "app/window/currentView.h"
-#include "detect/makeDetector.h"
+#include "plan/makeDetector.h"
 #include "widgets/base/icon.h"
 #include "widgets/base/settingWords.h"
 #include "widgets/events/EventCard.h"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "detect/makeDetector.h"
 #include "frames/NormalisedFrames.h"
+#include "plan/makeDetector.h"
 
 #include <vector>
 

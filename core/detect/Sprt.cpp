@@ -158,17 +158,6 @@ SprtResult runSprt(const SequentialModel &model, const SprtSettings &settings, c
     return result;
 }
 
-StageSource stagesOf(NormalisedFramesPointer frames, Index firstFrame, Index firstCell, Index cellCount)
-{
-    std::vector<float> row(std::size_t(frames->grid().size()));
-    return
-        [frames = std::move(frames), firstFrame, firstCell, cellCount, row](Index stage, std::span<double> y) mutable {
-            frames->read(firstFrame + stage, 1, row);
-            for (Index cell = 0; cell < cellCount; ++cell)
-                y[std::size_t(cell)] = double(row[std::size_t(firstCell + cell)]);
-        };
-}
-
 SectorRounds visitSectors(const SequentialModel &model, const SprtSettings &settings, const SectorPlan &plan,
                           const SectorSource &source, const RunContext &context)
 {

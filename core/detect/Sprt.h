@@ -2,7 +2,6 @@
 
 #include "base/Field.h"
 #include "base/RunContext.h"
-#include "frames/NormalisedFrames.h"
 #include "model/SequentialModel.h"
 #include "recursion/Recursion.h"
 
@@ -108,9 +107,6 @@ SprtResult runSprt(const SequentialModel &model, const SprtSettings &settings, c
                    const RunContext &context = {});
 SprtResult runSprt(const SequentialModel &model, const SprtSettings &settings, Index stages, const StageSource &source,
                    const RunContext &context = {});
-
-/// Ready-made or recorded frames as stages, from a frame on; on a frequency axis a range of its cells.
-StageSource stagesOf(NormalisedFramesPointer frames, Index firstFrame, Index firstCell, Index cellCount);
 
 /// One look of a radar into one angular sector: a separate sequential test.
 struct SectorVisit {

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "base/Field.h"
-#include "detect/makeDetector.h"
 #include "frames/Family.h"
 #include "frames/Spectrogram.h"
 #include "model/MarkovModel.h"
 #include "noise/NoiseNormaliser.h"
 #include "noise/pings/PingNoise.h"
+#include "plan/makeDetector.h"
 #include "track/ConventionalTracker.h"
 #include "track/HmmTracker.h"
 

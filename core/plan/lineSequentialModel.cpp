@@ -20,6 +20,17 @@ Index framesApart(const NormalisedFrames &frames)
     return Index(frames.geometry().framesPerWindow);
 }
 
+StageSource stagesOf(NormalisedFramesPointer frames, Index firstFrame, Index firstCell, Index cellCount)
+{
+    std::vector<float> row(std::size_t(frames->grid().size()));
+    return
+        [frames = std::move(frames), firstFrame, firstCell, cellCount, row](Index stage, std::span<double> y) mutable {
+            frames->read(firstFrame + stage, 1, row);
+            for (Index cell = 0; cell < cellCount; ++cell)
+                y[std::size_t(cell)] = double(row[std::size_t(firstCell + cell)]);
+        };
+}
+
 void checkLikelihoodRatio(const Likelihood &likelihood, const std::string &where)
 {
     if (likelihood.kind() == LikelihoodKind::Linear)

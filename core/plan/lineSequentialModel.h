@@ -1,7 +1,7 @@
 #pragma once
 
+#include "detect/Sprt.h"
 #include "frames/NormalisedFrames.h"
-#include "model/SequentialModel.h"
 #include "plan/AnalysisSettings.h"
 
 #include <string>
@@ -23,6 +23,9 @@ SequentialModel lineSequentialModel(const ModelSettings &settings, const Grid &g
 
 /// Distance of frames that share no samples: k_t of a spectrogram, 1 for ready-made frames.
 Index framesApart(const NormalisedFrames &frames);
+
+/// Ready-made or recorded frames as stages, from a frame on; on a frequency axis a range of its cells.
+StageSource stagesOf(NormalisedFramesPointer frames, Index firstFrame, Index firstCell, Index cellCount);
 
 /// Throws Error naming `where` if e^λ is not a likelihood ratio on exponential noise: E0 e^λ = 1 for rice,
 /// exponential and swerling4, but not for linear.

@@ -1,9 +1,9 @@
 #include "analyse/analyse.h"
 #include "base/Random.h"
-#include "detect/makeDetector.h"
 #include "inspect/boxLevels.h"
 #include "inspect/explain.h"
 #include "inspect/pathEvidence.h"
+#include "plan/makeDetector.h"
 #include "support/frames.h"
 #include "support/test.h"
 

@@ -8,7 +8,7 @@
 #include "app/openWindow.h"
 #include "app/views/WindowViews.h"
 #include "app/window/currentView.h"
-#include "detect/makeDetector.h"
+#include "plan/makeDetector.h"
 #include "support/test.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"

@@ -585,17 +585,6 @@ private slots:
         QCOMPARE(result.lnMapScore, 7.0);
     }
 
-    void partOfALine()
-    {
-        std::vector<float> values(5 * 10);
-        std::iota(values.begin(), values.end(), 0.0f);
-        const auto whole = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 5, false},
-                                                        Grid{{{"frequency", "Hz", 0.0, 1.0, 10, false}}}, values);
-        std::vector<double> y(3);
-        stagesOf(whole, 2, 4, 3)(1, y); // frame 3, cells 4 … 6
-        QCOMPARE(y, (std::vector<double>{34.0, 35.0, 36.0}));
-    }
-
     void sectors()
     {
         // Only sector 1 has a target, from the second round on: the echo is overwhelming there and half a nat short of

@@ -1,6 +1,6 @@
 #include "base/Error.h"
 #include "base/Random.h"
-#include "detect/makeDetector.h"
+#include "plan/makeDetector.h"
 #include "support/test.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-#include "detect/Sprt.h"
 #include "evaluate/sequential/SequentialTrial.h"
 #include "plan/lineSequentialModel.h"
 #include "scene/SimulatedRecording.h"
@@ -9,6 +8,7 @@
 
 #include <complex>
 #include <numbers>
+#include <numeric>
 
 using namespace faintline;
 using namespace faintline::test;
@@ -256,6 +256,17 @@ private slots:
             counted.wrong += result.decision == SprtDecision::H0 ? 1 : 0;
         }
         verify(counted);
+    }
+
+    void partOfALine()
+    {
+        std::vector<float> values(5 * 10);
+        std::iota(values.begin(), values.end(), 0.0f);
+        const auto whole = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 5, false},
+                                                        Grid{{{"frequency", "Hz", 0.0, 1.0, 10, false}}}, values);
+        std::vector<double> y(3);
+        stagesOf(whole, 2, 4, 3)(1, y); // frame 3, cells 4 … 6
+        QCOMPARE(y, (std::vector<double>{34.0, 35.0, 36.0}));
     }
 };
 

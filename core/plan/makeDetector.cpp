@@ -1,4 +1,4 @@
-#include "detect/makeDetector.h"
+#include "plan/makeDetector.h"
 
 #include "base/Overloaded.h"
 #include "detect/SumDetector.h"
