@@ -4,8 +4,6 @@
 #include "calibrate/constants.h"
 #include "calibrate/measureRareRates.h"
 #include "detect/Smd.h"
-#include "frames/Spectrogram.h"
-#include "noise/NoiseNormaliser.h"
 
 #include <algorithm>
 #include <cmath>

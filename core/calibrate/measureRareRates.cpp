@@ -4,8 +4,8 @@
 #include "base/parallel.h"
 #include "calibrate/constants.h"
 #include "calibrate/noiseCounts.h"
-#include "calibrate/noiseStreams.h"
 #include "detect/Detector.h"
+#include "noise/noiseStreams.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/RunContext.h"
-#include "calibrate/noiseStreams.h"
 #include "detect/Detector.h"
+#include "noise/noiseStreams.h"
 #include "plan/RareRates.h"
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 #include "inspect/noiseLaw.h"
 
 #include "base/Random.h"
-#include "calibrate/noiseStreams.h"
 #include "frames/Spectrogram.h"
+#include "noise/noiseStreams.h"
 
 #include <algorithm>
 #include <cmath>

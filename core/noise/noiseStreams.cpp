@@ -1,4 +1,4 @@
-#include "calibrate/noiseStreams.h"
+#include "noise/noiseStreams.h"
 
 #include "base/Random.h"
 #include "frames/Window.h"
