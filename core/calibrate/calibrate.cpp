@@ -7,30 +7,13 @@
 #include "frames/Spectrogram.h"
 #include "noise/CausalSpectrogram.h"
 #include "scene/SimulatedRecording.h"
-#include "signal/ArrayRecording.h"
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 namespace faintline {
 
 namespace {
-
-    /// A simulated recording with its samples in memory, unless there are too many: they are read several times.
-    RecordingPointer simulated(const LineScene &scene)
-    {
-        constexpr std::size_t mostFloats = std::size_t(1) << 23;
-        const auto recording = std::make_shared<SimulatedRecording>(scene);
-        const RecordingInfo &info = recording->info();
-        const auto floats = std::size_t(info.sampleCount * info.floatsPerSample());
-        if (floats > mostFloats)
-            return recording;
-        const std::shared_ptr<float[]> samples(new float[floats]);
-        recording->read(0, 0, info.sampleCount, std::span(samples.get(), floats));
-        return std::make_shared<ArrayRecording>("noise", std::shared_ptr<const float>(samples, samples.get()),
-                                                ArrayLayout{info.sampleRateHz, info.sampleCount, 1, info.isComplex});
-    }
 
     NormalisedFramesPointer noiseSegment(const AnalysisSettings &bare, int number)
     {
@@ -41,7 +24,7 @@ namespace {
         scene.isComplex = true;
         scene.noise.deviation = 1.0;
         scene.seed = 1000 + number;
-        const auto spectrogram = std::make_shared<Spectrogram>(simulated(scene), bare.spectrogram);
+        const auto spectrogram = std::make_shared<Spectrogram>(simulatedInMemory(scene), bare.spectrogram);
         return familyFramesOnRing(normalise(spectrogram, bare.noise), bare.family, channels);
     }
 
@@ -49,7 +32,7 @@ namespace {
                                                 const RunContext &context)
     {
         const double perSegment = double(segmentWindows) * bare.spectrogram.stepsPerWindow
-                                  * double(Fft::fastLength(calibrationWindowSamples * bare.spectrogram.binsPerCell));
+                                  * double(bare.spectrogram.transformLength(calibrationWindowSamples));
         const int segments = std::max(4, int(std::ceil(effort.cellFrames / perSegment)));
         const NoiseSegments noise =
             rememberedSegments({[&](int number) { return noiseSegment(bare, number); }, segments});

@@ -3,7 +3,6 @@
 #include "calibrate/constants.h"
 #include "calibrate/followTail.h"
 #include "frames/Spectrogram.h"
-#include "signal/Fft.h"
 
 #include <algorithm>
 #include <array>
@@ -25,7 +24,7 @@ namespace {
     {
         if (bare.family.isSum(channelCount(bare.selection)))
             return {};
-        return Fft::fastLength(calibrationWindowSamples * bare.spectrogram.binsPerCell);
+        return bare.spectrogram.transformLength(calibrationWindowSamples);
     }
 
     /// Where the ends of a band do not meet, a band twice as wide loses half of the events; where they do, half of the

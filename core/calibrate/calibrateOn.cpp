@@ -183,19 +183,6 @@ namespace {
         }
     }
 
-    /// A chain for each threshold, null for the first one if it is left out: most events cross it, which costs most.
-    std::vector<std::unique_ptr<DetectionChain>> chainsAt(const std::vector<double> &thresholds, AnalysisPlan plan,
-                                                          bool isWithoutFirst)
-    {
-        std::vector<std::unique_ptr<DetectionChain>> chains;
-        for (const double threshold : thresholds) {
-            plan.threshold = threshold;
-            const bool isLeftOut = isWithoutFirst && chains.empty();
-            chains.push_back(isLeftOut ? nullptr : makeChain(plan, makePathDetector(plan), false));
-        }
-        return chains;
-    }
-
 } // namespace
 
 NoiseSegments rememberedSegments(NoiseSegments noise)
@@ -263,9 +250,9 @@ std::shared_ptr<const Calibration> calibrateOn(const NoiseSegments &noise, const
         [&](int number) {
             AnalysisPlan own = trial;
             own.frames = noise.segment(number);
-            const bool isWithoutFirst =
+            const bool leavesOutFirst =
                 !rare.isEmpty() && (effort.isFirstEstimate || number % crowdedEverySegments != 0);
-            return countEvents(*own.frames, chainsAt(thresholds, own, isWithoutFirst));
+            return countEvents(own, thresholds, leavesOutFirst);
         },
         [&](const EventCounts &part) {
             add(part, counts);

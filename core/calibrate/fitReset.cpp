@@ -3,7 +3,6 @@
 #include "base/Error.h"
 #include "base/Field.h"
 #include "calibrate/constants.h"
-#include "calibrate/noiseCounts.h"
 #include "plan/Calibration.h"
 
 #include <cmath>

@@ -1,5 +1,7 @@
 #include "calibrate/noiseCounts.h"
 
+#include "plan/chain.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -97,24 +99,28 @@ NoiseTail measureTail(const NormalisedFrames &noise, Detector &detector, const S
     return tail;
 }
 
-EventCounts countEvents(const NormalisedFrames &noise, const std::vector<std::unique_ptr<DetectionChain>> &chains)
+EventCounts countEvents(const AnalysisPlan &plan, std::span<const double> thresholds, bool leavesOutFirst)
 {
+    AnalysisPlan own = plan;
+    std::vector<std::unique_ptr<DetectionChain>> chains;
+    for (std::size_t i = leavesOutFirst ? 1 : 0; i < thresholds.size(); ++i) {
+        own.threshold = thresholds[i];
+        chains.push_back(makeChain(own, makePathDetector(own), false));
+    }
+    const NormalisedFrames &noise = *plan.frames;
     std::vector<float> statistic(std::size_t(noise.grid().size()));
     forEachFrame(noise, [&](Index frame, std::span<const float> y) {
         for (const auto &chain : chains)
-            if (chain)
-                chain->update(frame, y, statistic);
+            chain->update(frame, y, statistic);
     });
     EventCounts counts;
+    if (leavesOutFirst)
+        counts = {{0.0}, {0.0}};
     for (const auto &chain : chains) {
-        double events = 0.0;
-        if (chain) {
-            chain->finish();
-            events = double(std::count_if(chain->tracks().begin(), chain->tracks().end(),
-                                          [](const Track &track) { return track.detectFrame >= settlingFrames; }));
-        }
-        counts.events.push_back(events);
-        counts.cellFrames.push_back(chain ? countedCellFrames(noise) : 0.0);
+        chain->finish();
+        counts.events.push_back(double(std::ranges::count_if(
+            chain->tracks(), [](Index frame) { return frame >= settlingFrames; }, &Track::detectFrame)));
+        counts.cellFrames.push_back(countedCellFrames(noise));
     }
     return counts;
 }

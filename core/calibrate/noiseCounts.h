@@ -2,7 +2,7 @@
 
 #include "calibrate/constants.h"
 #include "frames/NormalisedFrames.h"
-#include "track/DetectionChain.h"
+#include "plan/AnalysisPlan.h"
 
 #include <memory>
 #include <span>
@@ -25,9 +25,9 @@ struct NoiseTail {
     double cellFrames = 0.0;
 };
 
-/// Events of chains with given thresholds.
+/// Events of a chain at given thresholds.
 struct EventCounts {
-    std::vector<double> events;     ///< for each chain …
+    std::vector<double> events;     ///< at each threshold …
     std::vector<double> cellFrames; ///< … and amount of noise
 };
 
@@ -39,8 +39,9 @@ StatisticLevels statisticLevelsOf(const NormalisedFrames &noise, Detector &detec
 
 NoiseTail measureTail(const NormalisedFrames &noise, Detector &detector, const StatisticLevels &levels);
 
-/// Counts the chains' tracks after the settling frames; null chains count nothing.
-EventCounts countEvents(const NormalisedFrames &noise, const std::vector<std::unique_ptr<DetectionChain>> &chains);
+/// Counts the tracks of the plan's chain at each of these thresholds, after the settling frames. `leavesOutFirst`: none
+/// at the first one, which most events cross, so that it costs most.
+EventCounts countEvents(const AnalysisPlan &plan, std::span<const double> thresholds, bool leavesOutFirst);
 
 void add(const NoiseTail &part, NoiseTail &whole);
 

@@ -243,8 +243,7 @@ Spectrogram::Steps Spectrogram::stepsOf(const SpectrogramSettings &settings, con
         (settings.windowSeconds > 0.0 ? settings.windowSeconds : automaticWindowSeconds(info)) * info.sampleRateHz;
     const int samples = int(std::llround(std::clamp(wanted * settings.binsPerCell, 2.0 * settings.binsPerCell, 1e8)
                                          / settings.binsPerCell)); // longer ones are rejected later
-    return {hopOf(samples, settings) / info.sampleRateHz,
-            info.sampleRateHz / Fft::fastLength(samples * settings.binsPerCell)};
+    return {hopOf(samples, settings) / info.sampleRateHz, info.sampleRateHz / settings.transformLength(samples)};
 }
 
 Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &settings,
@@ -258,7 +257,7 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
     m_scaleExponent = m_recording->scaleExponent(selection.channel);
     for (float &weight : m_window)
         weight = std::ldexp(weight, -m_scaleExponent);
-    m_fft = std::make_shared<Fft>(Fft::fastLength(m_windowSamples * settings.binsPerCell),
+    m_fft = std::make_shared<Fft>(settings.transformLength(m_windowSamples),
                                   m_recording->info().isComplex ? Fft::Input::Complex : Fft::Input::Real);
     const double rate = m_recording->info().sampleRateHz;
     m_time = {"time",

@@ -21,6 +21,9 @@ struct SpectrogramSettings {
     int binsPerCell = 2;        ///< k_f: bins per resolution cell 1/T_FT
     WindowShape window = WindowShape::Hann;
 
+    /// Of a window of so many samples: the fast length from binsPerCell times that on.
+    int transformLength(int windowSamples) const { return Fft::fastLength(windowSamples * binsPerCell); }
+
     static const std::vector<Field<SpectrogramSettings>> &fields();
     bool operator==(const SpectrogramSettings &) const = default;
 };

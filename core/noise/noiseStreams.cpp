@@ -28,8 +28,8 @@ namespace {
         SpectralNoise(const SpectrogramSettings &settings, int windowSamples)
             : m_hop(std::size_t(std::max(1L, std::lround(double(windowSamples) / settings.stepsPerWindow)))),
               m_window(sampleWindow(settings.window, windowSamples)),
-              m_fft(Fft::fastLength(windowSamples * settings.binsPerCell), Fft::Input::Complex),
-              m_buffer(m_fft.buffer()), m_samples(2 * m_window.size())
+              m_fft(settings.transformLength(windowSamples), Fft::Input::Complex), m_buffer(m_fft.buffer()),
+              m_samples(2 * m_window.size())
         {
         }
 

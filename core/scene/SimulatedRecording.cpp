@@ -3,6 +3,7 @@
 #include "base/Random.h"
 #include "base/logmath.h"
 #include "scene/ornsteinUhlenbeck.h"
+#include "signal/ArrayRecording.h"
 
 #include <algorithm>
 #include <cmath>
@@ -222,6 +223,20 @@ void NoiseSource::applyLevel(Index first, std::span<float> out) const
         const double seconds = double(sample) / m_sampleRateHz;
         out[i] *= float(interpolate(m_level, seconds / m_levelStepSeconds));
     }
+}
+
+RecordingPointer simulatedInMemory(const LineScene &scene)
+{
+    constexpr std::size_t mostFloats = std::size_t(1) << 23;
+    const auto recording = std::make_shared<SimulatedRecording>(scene);
+    const RecordingInfo &info = recording->info();
+    const auto floats = std::size_t(info.sampleCount * info.floatsPerSample());
+    if (floats > mostFloats)
+        return recording;
+    const std::shared_ptr<float[]> samples(new float[floats]);
+    recording->read(0, 0, info.sampleCount, std::span(samples.get(), floats));
+    return std::make_shared<ArrayRecording>("noise", std::shared_ptr<const float>(samples, samples.get()),
+                                            ArrayLayout{info.sampleRateHz, info.sampleCount, 1, info.isComplex});
 }
 
 } // namespace faintline

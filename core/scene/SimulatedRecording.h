@@ -79,4 +79,7 @@ private:
     std::vector<Tone> m_tones;
 };
 
+/// The same with its samples in memory, unless these are more than 2²³ numbers; for those that are read several times.
+RecordingPointer simulatedInMemory(const LineScene &scene);
+
 } // namespace faintline
