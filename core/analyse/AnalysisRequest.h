@@ -1,9 +1,7 @@
 #pragma once
 
 #include "calibrate/CalibrationDepth.h"
-#include "frames/NormalisedFrames.h"
-#include "frames/PeakPyramid.h"
-#include "model/MarkovModel.h"
+#include "plan/Analysis.h"
 
 #include <functional>
 #include <memory>
@@ -11,8 +9,6 @@
 #include <span>
 
 namespace faintline {
-
-struct Analysis;
 
 /// Called for each block of frames of the statistic, in order: first frame, frames × cells values.
 using StatisticSink = std::function<void(Index firstFrame, std::span<const float> statistic)>;

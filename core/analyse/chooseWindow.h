@@ -5,7 +5,6 @@
 #include "base/RunContext.h"
 #include "plan/Analysis.h"
 #include "signal/Recording.h"
-#include "track/Track.h"
 
 #include <span>
 
