@@ -314,8 +314,6 @@ namespace {
     {
         std::vector<TrackCurve> curves;
         for (const Track &track : all.tracks) {
-            if (track.smoothed.empty())
-                continue;
             TrackCurve curve{&track, &all.time, {}, {}, {}};
             for (const SmoothedPoint &point : track.smoothed)
                 curve.hz.push_back(all.frequency.value(point.position));
@@ -394,12 +392,12 @@ std::shared_ptr<const Analysis> runInChosenWindow(const RecordingPointer &record
     const bool isChosen = previous && previous->recording == recording && previous->choice
                           && !previous->calibration->isFirstEstimate
                           && asksForTheSame(previous->choice->asked, settings);
-    const bool subtracts = settings.subtract.lines;
-    AnalysisSettings asked = settings; // subtraction does not affect the choice
-    asked.subtract.lines = false;
-    const double searched = isChosen ? 0.0 : subtracts ? 0.4 : 0.7; // shares of the progress
+    AnalysisSettings asked = settings;
+    asked.subtract.lines = false;                                        // does not affect the choice
+    const bool isSearchEnough = !isChosen && asked == settings;          // its runs are those that are wanted
+    const double searched = isChosen ? 0.0 : isSearchEnough ? 0.7 : 0.4; // shares of the progress
     const double compared = 0.98;
-    const double detected = isChosen ? 0.6 : subtracts ? 0.8 : compared;
+    const double detected = isChosen ? 0.6 : isSearchEnough ? compared : 0.8;
     WindowChoice choice;
     std::vector<std::shared_ptr<const Analysis>> others;
     std::shared_ptr<Analysis> trial;
@@ -407,7 +405,7 @@ std::shared_ptr<const Analysis> runInChosenWindow(const RecordingPointer &record
         choice = *previous->choice;
         others = previous->others;
     } else {
-        WindowSearch search(recording, asked, wanted.calibration, subtracts ? AnalysisDepth::Trial : wanted.depth,
+        WindowSearch search(recording, asked, wanted.calibration, isSearchEnough ? wanted.depth : AnalysisDepth::Trial,
                             context.part(0.0, searched));
         trial = search.run(previous, wanted.pictures);
         others = search.others(*trial);
@@ -419,7 +417,7 @@ std::shared_ptr<const Analysis> runInChosenWindow(const RecordingPointer &record
         runOnRecording(recording, ofTrial(choice, choice.chosen, settings), wanted, context.part(searched, detected));
     trial = {};
     const auto count = double(others.size());
-    if (isChosen || subtracts) // after the pictures, which the user waits for; the search ran without subtraction
+    if (!isSearchEnough) // after the pictures, which the user waits for
         for (std::size_t i = 0; i < others.size(); ++i) {
             const std::shared_ptr<const Analysis> tried = others[i];
             const RunContext part = context.part(detected, compared).part(double(i) / count, double(i + 1) / count);

@@ -149,6 +149,7 @@ namespace {
             else
                 view = lookBehind(analysis, std::move(view), context.part(0.2, 0.5));
             analysis.tracks = std::move(view.tracks);
+            analysis.tracks.insert(analysis.tracks.end(), subtracted.begin(), subtracted.end());
             numberByDetection(analysis.tracks);
             analysis.areas = joinAreas(std::move(view.areas));
             analysis.explainedByNoise = std::move(view.explainedByNoise);
@@ -157,10 +158,6 @@ namespace {
         }
         analysis.tracks = withoutLoneTeeth(analysis, std::move(analysis.tracks), context.part(0.5, 0.6));
         analysis.tracks = withoutGhosts(analysis, std::move(analysis.tracks));
-        if (!subtracted.empty()) {
-            analysis.tracks.insert(analysis.tracks.end(), subtracted.begin(), subtracted.end());
-            numberByDetection(analysis.tracks);
-        }
         if (!request.isTrial)
             holdAgainstOwnNoise(analysis, context.part(0.6, 1.0));
     }
@@ -237,10 +234,9 @@ namespace {
     {
         if (!previous || previous->recording != recording)
             return nullptr;
-        if (previous->unsubtracted)
-            return previous->unsubtracted.get();
-        const Spectrogram *spectrogram = previous->frames->spectrogram();
-        return spectrogram && spectrogram->recordingPointer() == recording ? previous : nullptr;
+        const Analysis &whole = previous->ofUnchanged();
+        const Spectrogram *spectrogram = whole.frames->spectrogram();
+        return spectrogram && spectrogram->recordingPointer() == recording ? &whole : nullptr;
     }
 
     /// Sends the frames of a recording through the chain, once.

@@ -62,6 +62,8 @@ struct Analysis : AnalysisPlan {
     /// If strong lines were subtracted: analysis of the unchanged recording, without pictures. The frames and all other
     /// results are then those of the remainder; `tracks` has both (subtractLines.h). Null if nothing was subtracted.
     std::shared_ptr<const Analysis> unsubtracted;
+    /// The analysis of the unchanged recording: that one, or this one.
+    const Analysis &ofUnchanged() const { return unsubtracted ? *unsubtracted : *this; }
 
     /// Whether this analysis has the given settings.
     bool answers(const AnalysisSettings &wanted) const
