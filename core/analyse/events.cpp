@@ -136,7 +136,7 @@ std::vector<Event> events(const AnalysisPlan &plan, const std::vector<Track> &tr
         event.isConfirmed = track.isConfirmed;
         event.isOpen = track.isOpen;
         event.isSubtracted = track.isSubtracted;
-        if (!track.smoothed.empty())
+        if (track.hasSecondPass())
             describe(event, track, plan);
         result.push_back(std::move(event));
     }

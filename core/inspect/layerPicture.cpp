@@ -100,7 +100,7 @@ namespace {
     SmoothedPoint smoothedOf(const Track &track, std::size_t i)
     {
         const auto cell = double(track.points[i].cell);
-        return track.smoothed.empty() ? SmoothedPoint{cell, float(cell), float(cell), 1.0f, 0.0f} : track.smoothed[i];
+        return track.hasSecondPass() ? track.smoothed[i] : SmoothedPoint{cell, float(cell), float(cell), 1.0f, 0.0f};
     }
 
     void raise(LayerPicture &picture, Index frame, Index cell, double value)

@@ -24,7 +24,7 @@ namespace {
     {
         std::vector<const Track *> tracks;
         for (const Track &track : analysis.tracks)
-            if (!track.smoothed.empty() && track.peakStatistic >= analysis.sureStatistic())
+            if (track.hasSecondPass() && track.peakStatistic >= analysis.sureStatistic())
                 tracks.push_back(&track);
         std::stable_sort(tracks.begin(), tracks.end(),
                          [](const Track *a, const Track *b) { return a->peakStatistic > b->peakStatistic; });

@@ -1,6 +1,6 @@
 #include "refine/signalKind.h"
 
-#include "frames/observed.h"
+#include "frames/Spectrogram.h"
 #include "refine/constants.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ namespace {
     {
         const Spectrogram *spectrogram = plan.frames->spectrogram();
         const auto isPause = [&](std::size_t i) {
-            return !track.isPresent(i) && (!spectrogram || isObserved(*spectrogram, track.points[i].frame));
+            return !track.isPresent(i) && (!spectrogram || spectrogram->isObserved(track.points[i].frame));
         };
         int pauses = 0;
         for (std::size_t i = 1; i + 1 < track.points.size(); ++i)
@@ -60,7 +60,7 @@ std::string nameOf(SignalKind kind)
 SignalKind kindOf(const Track &track, const AnalysisPlan &plan)
 {
     constexpr int fewestPauses = 2;
-    if (track.smoothed.empty())
+    if (!track.hasSecondPass())
         return SignalKind::Unknown;
     if (isSpread(track, plan))
         return SignalKind::Spread;

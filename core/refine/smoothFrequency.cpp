@@ -29,7 +29,7 @@ namespace {
         for (Eigen::Index i = 0; i < count; ++i) {
             const auto point = std::size_t(i);
             samples.hz[i] = frequency.value(track.lastPosition(point, frequency));
-            if (track.smoothed.empty())
+            if (!track.hasSecondPass())
                 continue;
             const SmoothedPoint &smoothed = track.smoothed[point];
             samples.weights[i] = double(smoothed.presence) / std::pow(smoothed.deviation(), 2);

@@ -20,7 +20,7 @@ namespace {
         double sum = 0.0;
         for (const SmoothedPoint &point : track.smoothed)
             sum += double(point.level);
-        return track.smoothed.empty() ? 0.0 : sum / double(track.smoothed.size());
+        return sum / double(std::max<std::size_t>(1, track.smoothed.size()));
     }
 
     /// Removes the track's ends, whose windows hold less of the line than of its abrupt onset or of noise. The curve is

@@ -33,8 +33,7 @@ namespace {
 
 std::vector<Track> withEndsTrimmed(std::vector<Track> tracks)
 {
-    const bool areSeenTwice = std::ranges::any_of(tracks, [](const Track &track) { return !track.smoothed.empty(); });
-    if (!areSeenTwice) // numbered by a chain, of which a listener may have told
+    if (std::ranges::none_of(tracks, &Track::hasSecondPass)) // numbered by a chain, of which a listener may have told
         return tracks;
     for (Track &track : tracks)
         trimEnds(track);

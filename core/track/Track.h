@@ -85,8 +85,10 @@ struct Track {
     std::vector<ModelChange>
         modelChanges{}; ///< ordered by frame; the points' planes are those of the model at their frame
 
+    bool hasSecondPass() const { return !smoothed.empty(); }
+
     /// Whether the signal is more likely present than absent at a point; without the second pass, always.
-    bool isPresent(std::size_t point) const { return smoothed.empty() || smoothed[point].presence > 0.5f; }
+    bool isPresent(std::size_t point) const { return !hasSecondPass() || smoothed[point].presence > 0.5f; }
 
     /// The points that reports and pictures contain: both ends, and those between at which the signal is present. A
     /// keyed or fading signal is one track with pauses, in which its position is not known. All points, if it is present
@@ -140,8 +142,8 @@ struct Track {
     double lastPosition(std::size_t point, const Axis &axis) const
     {
         const Index cell = points[point].cell;
-        return !smoothed.empty() ? smoothed[point].position
-                                 : double(axis.count > 0 ? cell % axis.count : cell) + double(points[point].offset);
+        return hasSecondPass() ? smoothed[point].position
+                               : double(axis.count > 0 ? cell % axis.count : cell) + double(points[point].offset);
     }
 
     /// Position on all axes, in their units.

@@ -24,7 +24,7 @@ namespace {
             const QPointF half(0.5 * time.step, 0.0);
             line.points = {line.points[0] - half, line.points[0] + half};
         }
-        if (track.smoothed.empty())
+        if (!track.hasSecondPass())
             return line;
         for (std::size_t i = first; i <= last; ++i)
             line.band << at(i, double(track.smoothed[i].low));

@@ -346,7 +346,7 @@ namespace {
             const std::ptrdiff_t to = std::min(count - 1, i + slopeReachPoints);
             const double mean = to > from ? (at(to) - at(from)) / double(to - from) : 0.0;
             const Index plane = track.points[std::size_t(i)].plane;
-            if (slopes.isLimit(space.ratesOfPlane(plane).back()) || (!track.smoothed.empty() && slopes.isLimit(mean)))
+            if (slopes.isLimit(space.ratesOfPlane(plane).back()) || (track.hasSecondPass() && slopes.isLimit(mean)))
                 std::fill(isSteep.begin() + from, isSteep.begin() + to + 1, char(1));
         }
         dropShortPieces(isSteep);
@@ -356,7 +356,7 @@ namespace {
     /// Standard deviation of a point's position, in cells; empty if the signal is absent.
     std::optional<double> deviationOf(const Track &track, std::size_t point)
     {
-        if (track.smoothed.empty())
+        if (!track.hasSecondPass())
             return 1.0 / std::sqrt(12.0);
         if (!track.isPresent(point))
             return {};
