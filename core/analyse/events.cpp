@@ -99,6 +99,11 @@ double statisticOf(const Track &track, const AnalysisPlan &analysis)
     return isScoreOfPaths(analysis.settings.detector) ? track.peakStatistic : track.detectStatistic;
 }
 
+double snrChangeDb(double hz, const FrameGeometry &geometry)
+{
+    return dbFromRatio(noiseBandwidthCells(geometry.window) / (geometry.windowSeconds * hz));
+}
+
 std::vector<Event> events(const Analysis &analysis)
 {
     return events(analysis, analysis.tracks);

@@ -66,6 +66,14 @@ std::string unreportedWords(const Analysis &analysis);
 /// A track's statistic as its event gives it.
 double statisticOf(const Track &track, const AnalysisPlan &analysis);
 
+/// The change of an event's SNR, which is that in a bin of these frames whatever window found it, to that against the
+/// noise in `hz`, dB: B = noiseBandwidthCells/T_FT is a bin's noise bandwidth,
+///
+///   SNR(hz) = SNR(bin)·B/hz
+///
+/// WSPR and the modes of WSJT-X refer to 2500 Hz.
+double snrChangeDb(double hz, const FrameGeometry &geometry);
+
 /// The events of an analysis at its threshold, ordered by onset, then frequency.
 std::vector<Event> events(const Analysis &analysis);
 /// The same for other tracks on its frames, such as the conventional ones.

@@ -146,6 +146,14 @@ double overlapFactor(const std::vector<float> &window, int steps)
     return std::sqrt(likenesses);
 }
 
+double noiseBandwidthCells(WindowShape shape)
+{
+    constexpr int length = 4096; // of unit energy; long enough for any shape's sum to have converged
+    const std::vector<float> window = sampleWindow(shape, length);
+    const double sum = std::accumulate(window.begin(), window.end(), 0.0);
+    return length / (sum * sum);
+}
+
 double mainLobeHalfWidth(WindowShape shape)
 {
     return leakage(shape).halfWidthCells;

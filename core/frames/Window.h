@@ -25,6 +25,10 @@ double cellLikeness(const std::vector<float> &window);
 /// independent ones.
 double overlapFactor(const std::vector<float> &window, int steps);
 
+/// Noise bandwidth of a bin, in resolution cells 1/T_FT: N·Σw²/(Σw)², which is 1 for a rectangular and 1.5 for a Hann
+/// window.
+double noiseBandwidthCells(WindowShape shape);
+
 /// Half width of the main lobe, from its peak to its first zero, in resolution cells 1/T_FT.
 double mainLobeHalfWidth(WindowShape shape);
 

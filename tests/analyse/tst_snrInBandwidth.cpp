@@ -1,6 +1,5 @@
 #include "analyse/analyse.h"
 #include "analyse/events.h"
-#include "analyse/snrInBandwidth.h"
 #include "scene/SimulatedRecording.h"
 #include "support/lines.h"
 #include "support/test.h"

@@ -1,6 +1,6 @@
 #include "app/features/events/ShownEvents.h"
 
-#include "analyse/snrInBandwidth.h"
+#include "analyse/events.h"
 #include "app/document/Document.h"
 #include "app/document/statisticUnit.h"
 #include "widgets/events/EventModel.h"
