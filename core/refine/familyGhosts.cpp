@@ -1,4 +1,4 @@
-#include "refine/familyGhosts.h"
+#include "refine/familyTracks.h"
 
 #include "refine/constants.h"
 

@@ -1,4 +1,4 @@
-#include "refine/familyLoneTeeth.h"
+#include "refine/familyTracks.h"
 
 #include "frames/Window.h"
 #include "frames/familyMembers.h"

@@ -7,6 +7,8 @@
 
 namespace faintline {
 
+// What of the tracks of a family is none: single lines, and parts of stronger families.
+
 /// Removes the tracks of a family that a single member explains: a strong line alone at f is also a member of families
 /// at f/k, or at its offsets from f, whose other members are absent.
 ///
@@ -21,5 +23,13 @@ namespace faintline {
 /// does not apply to a path score. Of tracks longer than 65536 frames only the middle is examined. Cost: the frames
 /// under the tracks are computed once more. Throws Cancelled.
 std::vector<Track> withoutLoneTeeth(const Analysis &analysis, std::vector<Track> tracks, const RunContext &context);
+
+/// Removes the tracks of a family that stronger ones account for: their members coincide with some of a stronger
+/// track's, for example at half or twice its fundamental, and their statistic does not exceed what these explain.
+///
+/// A share s of coinciding members carries at most E = s times the stronger track's statistic. A track is a signal of
+/// its own if it exceeds 1.5·E and lies at least the threshold above E. The remaining tracks keep their order and are
+/// renumbered. Does nothing if no family is set. Precondition: a family needs spectrogram frames.
+std::vector<Track> withoutGhosts(const AnalysisPlan &plan, std::vector<Track> tracks);
 
 } // namespace faintline
