@@ -8,7 +8,7 @@
 #include "exchange/writeDoppler.h"
 #include "exchange/writeEvents.h"
 #include "exchange/writeReviewed.h"
-#include "inspect/Review.h"
+#include "inspect/SignalNumbers.h"
 #include "inspect/straighten.h"
 #include "signal/Timeline.h"
 #include "signal/formats/writeRecording.h"

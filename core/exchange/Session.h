@@ -2,7 +2,7 @@
 
 #include "analyse/Source.h"
 #include "base/json.h"
-#include "inspect/Review.h"
+#include "inspect/SignalNumbers.h"
 #include "plan/AnalysisSettings.h"
 
 #include <string>

@@ -1,7 +1,6 @@
-#include "inspect/Review.h"
-#include "support/test.h"
-
+#include "inspect/SignalNumbers.h"
 #include "inspect/judgeByBoxes.h"
+#include "support/test.h"
 
 using namespace faintline;
 
