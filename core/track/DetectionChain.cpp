@@ -1,6 +1,5 @@
 #include "track/DetectionChain.h"
 
-#include "base/memoryShares.h"
 #include "track/Cluster.h"
 #include "track/closeTrackers.h"
 #include "track/constants.h"
@@ -9,29 +8,6 @@
 #include <cmath>
 
 namespace faintline {
-
-namespace {
-
-    constexpr Index checkpointFrames = 32; ///< frames between checkpoints
-
-    /// Number of frames to record: only the newest one without traceback.
-    std::size_t framesOf(const Grid &grid, const ChainSettings &settings)
-    {
-        const std::size_t most = memoryShares::pathRecord / (sizeof(float) * std::size_t(grid.size()));
-        return settings.onsetFrames == 1 ? 1 : std::clamp<std::size_t>(most, 16, 4096);
-    }
-
-    std::size_t checkpointsOf(const std::vector<MarkovModel> &models, const ChainSettings &settings)
-    {
-        if (settings.onsetFrames == 1)
-            return 0;
-        std::size_t states = 0;
-        for (const MarkovModel &model : models)
-            states += std::size_t(model.space.stateCount());
-        return memoryShares::pathRecord / (sizeof(float) * states);
-    }
-
-} // namespace
 
 DetectionChain::DetectionChain(const MarkovModel &model, const Grid &grid, std::unique_ptr<PathDetector> detector,
                                ChainSettings settings)
@@ -42,8 +18,7 @@ DetectionChain::DetectionChain(const MarkovModel &model, const Grid &grid, std::
 DetectionChain::DetectionChain(std::vector<MarkovModel> models, const Grid &grid,
                                std::unique_ptr<PathDetector> detector, ChainSettings settings)
     : m_models(std::move(models)), m_grid(grid), m_detector(std::move(detector)), m_settings(std::move(settings)),
-      m_seenLimit(framesOf(grid, m_settings)), m_checkpointLimit(checkpointsOf(m_models, m_settings)),
-      m_lambda(std::size_t(grid.size()))
+      m_recent(m_models, grid, m_settings.onsetFrames == 1), m_lambda(std::size_t(grid.size()))
 {
     for (const MarkovModel &model : m_models)
         m_trackerModels.push_back(std::make_unique<TrackerModel>(
@@ -66,7 +41,7 @@ void DetectionChain::update(Index frame, std::span<const float> y, std::span<flo
             m_detector->forget(m_grid, box);
     updateTrackers(frame, y);
 
-    Seen seen;
+    RecentFrames::Seen seen;
     seen.y.assign(y.begin(), y.end());
     keepExcursions();
     for (const HmmTracker &tracker : m_trackers) {
@@ -82,14 +57,14 @@ void DetectionChain::update(Index frame, std::span<const float> y, std::span<flo
     m_detector->update(seen.y, statistic);
     for (std::size_t i = 0; i < m_detector->modelCount(); ++i)
         seen.lnK.push_back(m_detector->regulation(i).stepLnK);
-    remember(frame, std::move(seen));
+    m_recent.add(frame, std::move(seen), *m_detector);
 
     const auto clusters =
         findClusters(m_grid, statistic, m_settings.threshold, m_settings.shoulder, m_settings.linkCells);
     for (const Cluster &cluster : clusters)
         startTrack(frame, cluster, y);
     if (m_settings.resets)
-        m_seen.back().forgotten.assign(forgottenBoxes().begin(), forgottenBoxes().end());
+        m_recent.newest().forgotten.assign(forgottenBoxes().begin(), forgottenBoxes().end());
     if (m_settings.trackThreshold)
         return showStatistic(y, statistic);
     for (const HmmTracker &tracker : m_trackers)
@@ -104,35 +79,6 @@ void DetectionChain::showStatistic(std::span<const float> y, std::span<float> st
             received[std::size_t(cell)] = 0.0f;
         });
     m_detector->showStatistic(received, statistic);
-}
-
-void DetectionChain::remember(Index frame, Seen seen)
-{
-    if (m_seen.size() == m_seenLimit) {
-        m_seen.pop_front();
-        ++m_firstSeen;
-    }
-    if (m_seen.empty())
-        m_firstSeen = frame;
-    m_seen.push_back(std::move(seen));
-
-    if (m_checkpointLimit == 0 || frame % checkpointFrames != 0)
-        return;
-    // Checkpoints before the recorded frames are useless. The oldest one's memory is reused, because new pages cost as
-    // much as writing to them.
-    KeptScores checkpoint;
-    if (!m_checkpoints.empty()
-        && (m_checkpoints.size() == m_checkpointLimit || m_checkpoints.front().frame < m_firstSeen)) {
-        checkpoint = std::move(m_checkpoints.front());
-        m_checkpoints.pop_front();
-    }
-    checkpoint.frame = frame;
-    checkpoint.scores.resize(m_models.size());
-    for (std::size_t i = 0; i < m_models.size(); ++i) {
-        const std::span<const float> scores = m_detector->scores(i);
-        checkpoint.scores[i].assign(scores.begin(), scores.end());
-    }
-    m_checkpoints.push_back(std::move(checkpoint));
 }
 
 std::span<const CellBox> DetectionChain::forgottenBoxes() const
@@ -261,27 +207,10 @@ Index DetectionChain::bestState(Index cell) const
     return best;
 }
 
-RecursionRecord DetectionChain::record(std::size_t model) const
-{
-    RecursionRecord result;
-    result.firstFrame = m_firstSeen;
-    const auto at = [this](Index frame) -> const Seen & { return m_seen[std::size_t(frame - m_firstSeen)]; };
-    result.frame = [at](Index frame) { return std::span<const float>(at(frame).y); };
-    result.lnK = [at, model](Index frame) { return at(frame).lnK[model]; };
-    result.forgotten = [at](Index frame) { return std::span<const CellBox>(at(frame).forgotten); };
-    result.checkpoint = [this, model](Index before) {
-        const auto latest = std::find_if(m_checkpoints.rbegin(), m_checkpoints.rend(),
-                                         [before](const KeptScores &checkpoint) { return checkpoint.frame < before; });
-        return latest == m_checkpoints.rend() ? RecursionRecord::Checkpoint{}
-                                              : RecursionRecord::Checkpoint{latest->frame, latest->scores[model]};
-    };
-    return result;
-}
-
 std::vector<PathStep> DetectionChain::detectorPathInto(Index state, std::size_t model) const
 {
-    return tracePath(m_models[model], m_grid, record(model),
-                     {m_firstSeen + std::ssize(m_seen) - 1, state, scoreOf(state, model)});
+    return tracePath(m_models[model], m_grid, m_recent.record(model),
+                     {m_recent.newestFrame(), state, scoreOf(state, model)});
 }
 
 std::size_t ChainState::bytes() const
@@ -330,8 +259,7 @@ void DetectionChain::setState(const ChainState &state)
     m_boxTracks = state.boxTracks;
     m_excursions = state.excursions;
     m_nextId = state.nextId;
-    m_seen.clear();
-    m_checkpoints.clear();
+    m_recent.clear();
 }
 
 std::span<const CellBox> DetectionChain::forgotten() const
@@ -348,7 +276,7 @@ void DetectionChain::startTrack(Index frame, const Cluster &cluster, std::span<c
     track.model = m_detector->winnerAt(cluster.peakCell);
     const std::size_t model = track.model;
     const StateSpace &space = m_models[model].space;
-    RecursionRecord recent = record(model);
+    RecursionRecord recent = m_recent.record(model);
     if (m_settings.onsetFrames > 0)
         recent.firstFrame = std::max(recent.firstFrame, frame - m_settings.onsetFrames + 1);
     for (const PathStep &step : tracePath(m_models[model], m_grid, recent, {frame, state, scoreOf(state, model)}))
@@ -356,7 +284,7 @@ void DetectionChain::startTrack(Index frame, const Cluster &cluster, std::span<c
     trimOnset(track.points);
     if (m_trackerModels[model]->measuresOffsets)
         measureOffsets(track.points, track.points.size(), [&](std::size_t i, Index cell) {
-            const std::vector<float> &seen = m_seen[std::size_t(track.points[i].frame - m_firstSeen)].y;
+            const std::vector<float> &seen = m_recent.at(track.points[i].frame).y;
             return cell < 0 || cell >= std::ssize(seen)
                        ? 0.0
                        : m_models[model].likelihood.at(double(seen[std::size_t(cell)]));

@@ -1,15 +1,12 @@
 #pragma once
 
-#include "detect/PathDetector.h"
-#include "model/MarkovModel.h"
-#include "recursion/PathTrace.h"
 #include "track/Cluster.h"
 #include "track/HmmTracker.h"
+#include "track/RecentFrames.h"
 #include "track/RivalModels.h"
 #include "track/Track.h"
 #include "track/joinTracks.h"
 
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -106,7 +103,7 @@ public:
     /// The best path of one model into a state of the newest frame.
     std::vector<PathStep> detectorPathInto(Index state, std::size_t model = 0) const;
     /// Maximum length of such a path in frames, including the newest.
-    Index longestPath() const { return Index(m_seenLimit); }
+    Index longestPath() const { return m_recent.longest(); }
 
     /// Null if the detector cannot save its state.
     std::shared_ptr<const ChainState> state() const;
@@ -129,21 +126,7 @@ public:
     std::vector<Inhibition> inhibitions() const;
 
 private:
-    /// One frame as the detector took it.
-    struct Seen {
-        std::vector<float> y;
-        std::vector<double> lnK; ///< for each model
-        std::vector<CellBox> forgotten;
-    };
-
-    /// Scores of all states after a frame.
-    struct KeptScores {
-        Index frame;
-        std::vector<std::vector<float>> scores; ///< for each model
-    };
-
     void showStatistic(std::span<const float> y, std::span<float> statistic);
-    void remember(Index frame, Seen seen);
     std::span<const CellBox> forgottenBoxes() const;
     void keepExcursions();
     void keepFromDetector(std::span<const CellBox> boxes, std::vector<float> &y);
@@ -155,7 +138,6 @@ private:
     void startTrack(Index frame, const Cluster &cluster, std::span<const float> y);
     Index bestState(Index cell) const;
     double scoreOf(Index state, std::size_t model) const;
-    RecursionRecord record(std::size_t model) const;
 
     std::vector<MarkovModel> m_models;
     Grid m_grid;
@@ -170,11 +152,7 @@ private:
     std::vector<int> m_boxTracks;    ///< track of each box
     /// Number of leading boxes that were forgotten before the last frame together with newly started tracks.
     std::size_t m_excursions = 0;
-    std::deque<Seen> m_seen;
-    Index m_firstSeen = 0;
-    std::size_t m_seenLimit;
-    std::deque<KeptScores> m_checkpoints;
-    std::size_t m_checkpointLimit;
+    RecentFrames m_recent;
     int m_nextId = 1;
     std::vector<float> m_lambda;
 };
