@@ -3,6 +3,7 @@
 #include "analyse/constants.h"
 #include "analyse/runAnalysis.h"
 #include "plan/Analysis.h"
+#include "refine/TrackCurve.h"
 #include "refine/otherWindows.h"
 #include "refine/ownNoiseLaw.h"
 #include "refine/secondLook.h"
@@ -284,61 +285,49 @@ namespace {
         }
     };
 
-    /// A track in seconds and hertz.
-    struct TrackCurve {
-        const Track *track;
-        const Axis *time;
-        std::vector<double> hz;
+    /// A track with when and where it is.
+    struct Followed {
+        const Track &track;
+        TrackCurve curve;
         Extent seconds;
         Extent band;
 
-        double secondsAt(std::size_t i) const { return time->value(double(track->points[i].frame)); }
+        Followed(const Track &own, const TracksOnAxes &all)
+            : track(own), curve(own, all.time, all.frequency), seconds{curve.start(), curve.end()},
+              band{std::ranges::min(curve.hz()), std::ranges::max(curve.hz())}
+        {
+        }
 
         /// Range of frequencies within a frame of that time.
         Extent around(double at) const
         {
-            Extent range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-            const double frame = (at - seconds.low) / time->step;
-            for (const double shift : {-1.0, 0.0, 1.0}) {
-                const double place = std::clamp(frame + shift, 0.0, double(hz.size() - 1));
-                const auto i = std::size_t(place);
-                const double next = hz[std::min(i + 1, hz.size() - 1)];
-                const double value = hz[i] + (place - double(i)) * (next - hz[i]);
-                range = {std::min(range.low, value), std::max(range.high, value)};
-            }
-            return range;
+            const auto [low, high] =
+                std::minmax({curve.at(at - curve.step()), curve.at(at), curve.at(at + curve.step())});
+            return {low, high};
         }
     };
 
-    std::vector<TrackCurve> curvesOf(const TracksOnAxes &all)
+    std::vector<Followed> allFollowed(const TracksOnAxes &all)
     {
-        std::vector<TrackCurve> curves;
-        for (const Track &track : all.tracks) {
-            TrackCurve curve{&track, &all.time, {}, {}, {}};
-            for (const SmoothedPoint &point : track.smoothed)
-                curve.hz.push_back(all.frequency.value(point.position));
-            const auto [low, high] = std::minmax_element(curve.hz.begin(), curve.hz.end());
-            curve.band = {*low, *high};
-            curve.seconds = {curve.secondsAt(0), curve.secondsAt(curve.hz.size() - 1)};
-            curves.push_back(std::move(curve));
-        }
-        return curves;
+        std::vector<Followed> result;
+        for (const Track &track : all.tracks)
+            result.emplace_back(track, all);
+        return result;
     }
 
-    /// Σ r of all curves near a path.
-    double energyNear(const TrackCurve &path, const std::vector<TrackCurve> &curves, double marginHz)
+    /// Σ r of all tracks near a path.
+    double energyNear(const Followed &path, const std::vector<Followed> &tracks, double marginHz)
     {
         double sum = 0.0;
-        for (const TrackCurve &curve : curves) {
-            const double marginSeconds = std::max(path.time->step, curve.time->step);
-            if (!curve.seconds.meets(path.seconds, marginSeconds) || !curve.band.meets(path.band, marginHz))
+        for (const Followed &other : tracks) {
+            const double marginSeconds = std::max(path.curve.step(), other.curve.step());
+            if (!other.seconds.meets(path.seconds, marginSeconds) || !other.band.meets(path.band, marginHz))
                 continue;
-            for (std::size_t i = 0; i < curve.hz.size(); ++i) {
-                const double at = curve.secondsAt(i);
-                if (at < path.seconds.low - marginSeconds || at > path.seconds.high + marginSeconds)
-                    continue;
-                if (path.around(at).meets({curve.hz[i], curve.hz[i]}, marginHz))
-                    sum += double(curve.track->smoothed[i].level);
+            for (std::size_t i = 0; i < other.curve.count(); ++i) {
+                const double at = other.curve.secondsAt(i);
+                const double hz = other.curve.hzAt(i);
+                if (path.seconds.meets({at, at}, marginSeconds) && path.around(at).meets({hz, hz}, marginHz))
+                    sum += double(other.track.smoothed[i].level);
             }
         }
         return sum;
@@ -440,15 +429,15 @@ std::shared_ptr<const Analysis> runInChosenWindow(const RecordingPointer &record
 
 double energyKept(const TracksOnAxes &shorter, const TracksOnAxes &longer, double leastStatistic)
 {
-    const std::vector<TrackCurve> ofShorter = curvesOf(shorter);
-    const std::vector<TrackCurve> ofLonger = curvesOf(longer);
+    const std::vector<Followed> ofShorter = allFollowed(shorter);
+    const std::vector<Followed> ofLonger = allFollowed(longer);
     std::vector<std::pair<double, double>> shares;
-    for (const TrackCurve &path : ofShorter) {
-        if (path.track->peakStatistic < leastStatistic)
+    for (const Followed &path : ofShorter) {
+        if (path.track.peakStatistic < leastStatistic)
             continue;
         const double kept = energyNear(path, ofLonger, shorter.cellHz);
         if (kept > 0.0)
-            shares.emplace_back(kept / energyNear(path, ofShorter, shorter.cellHz), double(path.hz.size()));
+            shares.emplace_back(kept / energyNear(path, ofShorter, shorter.cellHz), double(path.curve.count()));
     }
     return weightedMedian(shares);
 }

@@ -2,6 +2,7 @@
 
 #include "frames/Window.h"
 #include "plan/Analysis.h"
+#include "refine/TrackCurve.h"
 #include "refine/constants.h"
 #include "refine/levelBeside.h"
 #include "refine/numberByDetection.h"
@@ -42,35 +43,27 @@ namespace {
         bool isEmpty() const { return low > high; }
     };
 
-    /// A track of the base over time and frequency.
-    class Curve
+    /// A track of an analysis, with the bands in which it may be.
+    class Curve : public TrackCurve
     {
     public:
         Curve(const Track &track, const Analysis &analysis)
-            : m_start(analysis.time().value(double(track.onsetFrame))), m_step(analysis.time().step),
-              m_windowHalf(0.5 * windowOf(analysis))
+            : TrackCurve(track, analysis.time(), frequencyOf(analysis)), m_windowHalf(0.5 * windowOf(analysis))
         {
             const Axis &axis = frequencyOf(analysis);
             for (std::size_t i = 0; i < track.points.size(); ++i) {
                 const SmoothedPoint &point = track.smoothed[i];
-                const double hz = axis.value(point.position);
-                m_hz.push_back(hz);
                 const bool isThere = // what was not observed is no pause
                     track.isPresent(i) || !analysis.frames->spectrogram()->isObserved(track.points[i].frame);
-                m_bands.push_back(isThere ? Band{std::min(hz, axis.value(double(point.low))),
-                                                 std::max(hz, axis.value(double(point.high)))}
+                m_bands.push_back(isThere ? Band{std::min(hzAt(i), axis.value(double(point.low))),
+                                                 std::max(hzAt(i), axis.value(double(point.high)))}
                                           : Band{});
             }
         }
 
-        double start() const { return m_start; }
-        double end() const { return secondsAt(m_hz.size() - 1); }
         double heardFrom() const { return start() - m_windowHalf; } ///< of the window of its first frame
         double heardUntil() const { return end() + m_windowHalf; }
-        double duration() const { return end() - start() + m_step; }
-        std::size_t count() const { return m_hz.size(); }
-        double secondsAt(std::size_t i) const { return m_start + double(i) * m_step; }
-        double hzAt(std::size_t i) const { return m_hz[i]; }
+        double duration() const { return end() - start() + step(); }
         bool isPresent(std::size_t i) const { return !m_bands[i].isEmpty(); }
 
         /// Where it may be between two times, at the points nearest to these at least.
@@ -79,9 +72,9 @@ namespace {
             Band band;
             if (to < heardFrom() || from > heardUntil())
                 return band;
-            const auto most = double(m_hz.size() - 1);
-            const double first = std::clamp(std::ceil((from - m_start) / m_step - 0.5), 0.0, most);
-            const double last = std::clamp(std::floor((to - m_start) / m_step + 0.5), 0.0, most);
+            const auto most = double(count() - 1);
+            const double first = std::clamp(std::ceil((from - start()) / step() - 0.5), 0.0, most);
+            const double last = std::clamp(std::floor((to - start()) / step() + 0.5), 0.0, most);
             for (double i = first; i <= last; i += 1.0) {
                 const Band &one = m_bands[std::size_t(i)];
                 band = {std::min(band.low, one.low), std::max(band.high, one.high)};
@@ -89,19 +82,8 @@ namespace {
             return band;
         }
 
-        /// Frequency at a time, interpolated; that of an end beyond it.
-        double at(double seconds) const
-        {
-            const double place = std::clamp((seconds - m_start) / m_step, 0.0, double(m_hz.size() - 1));
-            const auto i = std::size_t(place);
-            return std::lerp(m_hz[i], m_hz[std::min(i + 1, m_hz.size() - 1)], place - double(i));
-        }
-
     private:
-        double m_start;
-        double m_step;
         double m_windowHalf;
-        std::vector<double> m_hz;
         std::vector<Band> m_bands; ///< 5-95 %; empty where absent
     };
 
@@ -112,25 +94,10 @@ namespace {
         return std::sqrt(window) / std::max(1.0, cells);
     }
 
-    /// Mean square of the movement within a window, or mean product of those in two successive ones, in cells²; 0 if it
-    /// does not last for that.
-    double movement2(const Curve &x, double window, int windows)
-    {
-        double sum = 0.0;
-        double count = 0.0;
-        for (std::size_t i = 0; i < x.count() && x.secondsAt(i) + double(windows) * window <= x.end(); ++i) {
-            const double t = x.secondsAt(i);
-            const double one = x.at(t + window) - x.at(t);
-            sum += one * (windows == 1 ? one : x.at(t + 2.0 * window) - x.at(t + window));
-            count += 1.0;
-        }
-        return count > 0.0 ? std::max(0.0, sum / count) * window * window : 0.0;
-    }
-
     bool isBetterIn(const Curve &x, double window, double than)
     {
-        return visibility(window, std::sqrt(movement2(x, window, 1)))
-               > visibility(than, std::sqrt(movement2(x, than, 2)));
+        return visibility(window, std::sqrt(x.movement2(window, 1)))
+               > visibility(than, std::sqrt(x.movement2(than, 2)));
     }
 
     /// A track of another window in the frames of this one: interpolated between its points, or where several of these lie

@@ -29,6 +29,7 @@ Track track(const Axis &time, const Axis &cells, double from, double to, const s
         result.points.push_back({frame, Index(std::lround(position)), 0, 0.0});
         result.smoothed.push_back({position, 0.0f, 0.0f, 1.0f, float(level)});
     }
+    result.takeEndsOfPoints();
     return result;
 }
 
