@@ -1,7 +1,6 @@
 #include "frames/Family.h"
 
 #include "frames/LooksLaw.h"
-#include "frames/Spectrogram.h"
 #include "frames/familyLaw.h"
 
 #include <algorithm>
@@ -143,13 +142,11 @@ double familyCellsPerBin(const FamilySettings &settings)
 Axis familyAxis(const FamilySettings &settings, const Axis &band)
 {
     checkFamily(settings);
-    if (settings.isNone())
-        return band;
     const auto refuse = [&](const char *why) {
         throw fieldError("family.members", formatFieldValue(settings.members), why);
     };
-    if (settings.relation == FamilySettings::Relation::Offsets) {
-        if (closest(settings.members) < band.step)
+    if (settings.relation != FamilySettings::Relation::Harmonics) {
+        if (closest(familyOrLine(settings).members) < band.step)
             refuse("must lie at least a bin apart; a longer window (spectrogram.windowSeconds) has narrower bins");
         return band;
     }
@@ -186,10 +183,10 @@ std::vector<double> memberFrequencies(const FamilySettings &settings, double hz)
     return result;
 }
 
-FamilyMap::FamilyMap(const FamilySettings &settings, const Axis &frequency, bool innerOnly, int channels)
+FamilyMap::FamilyMap(const FamilySettings &settings, const Axis &frequency, bool hasRealEnds, int channels)
     : m_settings(familyOrLine(settings)), m_frequency(familyAxis(m_settings, frequency)), m_channels(channels)
 {
-    const Index first = innerOnly ? 1 : 0;
+    const Index first = settings.firstBin(hasRealEnds);
     const Index last = frequency.count - 1 - first;
     const std::size_t members = m_settings.members.size();
     const auto cells = std::size_t(m_frequency.count);
@@ -293,11 +290,8 @@ NormalisedFramesPointer familyFrames(const std::vector<NormalisedFramesPointer> 
     const NormalisedFramesPointer &first = channels.front();
     if (!settings.isSum(int(channels.size())))
         return first;
-    const Spectrogram *spectrogram = first->spectrogram();
-    // Without a family, the detector excludes the ends of the band.
-    const bool innerOnly = !settings.isNone() && spectrogram && spectrogram->hasRealEnds();
     return std::make_shared<FamilyFrames>(
-        channels, FamilyMap(settings, first->grid().axes.back(), innerOnly, int(channels.size())));
+        channels, FamilyMap(settings, first->grid().axes.back(), first->geometry().hasRealEnds, int(channels.size())));
 }
 
 NormalisedFramesPointer familyFramesOnRing(const NormalisedFramesPointer &ring, const FamilySettings &settings,

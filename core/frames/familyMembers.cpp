@@ -8,12 +8,12 @@
 
 namespace faintline {
 
-std::vector<Index> memberBins(const FamilySettings &settings, double hz, const Axis &band, bool innerOnly)
+std::vector<Index> memberBins(const FamilySettings &settings, double hz, const Axis &band, bool hasRealEnds)
 {
-    const Index first = innerOnly ? 1 : 0;
+    const Index first = settings.firstBin(hasRealEnds);
     const Index last = band.count - 1 - first;
     std::vector<Index> bins;
-    for (const double member : memberFrequencies(settings, hz)) {
+    for (const double member : memberFrequencies(familyOrLine(settings), hz)) {
         const Index bin = std::lround(band.position(member));
         bins.push_back(bin >= first && bin <= last ? bin : -1);
     }

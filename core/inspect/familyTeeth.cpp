@@ -26,9 +26,8 @@ namespace {
     {
     public:
         explicit MemberReader(const Analysis &analysis)
-            : m_family(familyOrLine(analysis.settings.family)), m_axis(analysis.grid().axes.back()),
-              m_channels(analysis.lines),
-              m_innerOnly(!analysis.settings.family.isNone() && analysis.frames->geometry().hasRealEnds)
+            : m_analysis(analysis), m_family(familyOrLine(analysis.settings.family)),
+              m_axis(analysis.grid().axes.back()), m_channels(analysis.lines)
         {
         }
 
@@ -40,7 +39,8 @@ namespace {
         std::vector<float> at(const PathCell &place)
         {
             const Axis &band = m_channels.front()->grid().axes.back();
-            const std::vector<Index> bins = memberBins(m_family, m_axis.value(double(place.cell)), band, m_innerOnly);
+            const std::vector<Index> bins = memberBins(m_analysis.settings.family, m_axis.value(double(place.cell)),
+                                                       band, m_analysis.frames->geometry().hasRealEnds);
             std::vector<float> members(bins.size() * channelCount());
             m_frame.resize(std::size_t(band.count));
             for (std::size_t c = 0; c < channelCount(); ++c) {
@@ -52,10 +52,10 @@ namespace {
         }
 
     private:
+        const Analysis &m_analysis;
         FamilySettings m_family;
         const Axis &m_axis; ///< the family's
         const std::vector<NormalisedFramesPointer> &m_channels;
-        bool m_innerOnly;
         std::vector<float> m_frame;
     };
 
