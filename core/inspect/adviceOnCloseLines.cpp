@@ -33,9 +33,7 @@ namespace {
         double sum = 0.0;
         double squares = 0.0;
         for (Index frame = first; frame <= last; ++frame) {
-            const auto at = [&](const Track &track) {
-                return track.lastPosition(std::size_t(frame - track.points.front().frame), axis);
-            };
+            const auto at = [&](const Track &track) { return track.lastPosition(track.pointIndex(frame), axis); };
             const double apart = at(a) - at(b);
             sum += apart;
             squares += apart * apart;
@@ -102,14 +100,6 @@ namespace {
         return steepest;
     }
 
-    double steepestAllowed(const StateSpace &space)
-    {
-        double steepest = 0.0;
-        for (Index plane = 0; plane < space.planeCount(); ++plane)
-            steepest = std::max(steepest, std::abs(space.ratesOfPlane(plane).back()));
-        return steepest;
-    }
-
     std::string sentenceOf(const ClosePairs &close, const Axis &axis)
     {
         char text[160];
@@ -138,7 +128,7 @@ std::optional<Advice> adviceOnCloseLines(const Analysis &analysis)
     const double factor = wantedCells * binsPerCell / close.bins;
     const double seconds = factor * geometry.windowSeconds;
     const double duration = double(analysis.time().count) * analysis.time().step;
-    const bool isTooFast = steepestOf(tracks, axis) * factor * factor > steepestAllowed(analysis.model.space);
+    const bool isTooFast = steepestOf(tracks, axis) * factor * factor > steepestSlope(analysis.model.space);
     if (seconds * windowsInRecording > duration || isTooFast || isAsked(analysis, seconds))
         return {};
     Advice advice{"closeLines", sentenceOf(close, axis), {}, analysis.settings};

@@ -1,7 +1,6 @@
 #include "refine/decideJointly.h"
 
 #include "recursion/jointPaths.h"
-#include "refine/atFrame.h"
 #include "refine/constants.h"
 #include "refine/pathStrips.h"
 
@@ -77,7 +76,7 @@ namespace {
             FramesTogether run;
             const Index last = std::min(a.points.back().frame, b.points.back().frame);
             for (Index frame = std::max(a.points.front().frame, b.points.front().frame); frame <= last; ++frame) {
-                if (std::abs(positionAt(a, frame) - positionAt(b, frame)) >= near())
+                if (std::abs(a.positionAt(frame) - b.positionAt(frame)) >= near())
                     continue;
                 if (run.count() == 0 || frame - run.to > m_slopeFrames)
                     run.from = frame;
@@ -92,7 +91,7 @@ namespace {
         {
             double sum = 0.0;
             for (Index frame = frames.from; frame <= frames.to; ++frame)
-                sum += double(track.smoothed[pointIndex(track, frame)].level);
+                sum += double(track.smoothedAt(frame).level);
             return sum / double(frames.count());
         }
 
@@ -112,9 +111,9 @@ namespace {
                     continue;
                 const Index last = std::min(frames.to, track.points.back().frame);
                 for (Index frame = std::max(frames.from, track.points.front().frame); frame <= last; ++frame) {
-                    const double a = positionAt(m_tracks[i], frame);
-                    const double b = positionAt(m_tracks[j], frame);
-                    const double at = positionAt(track, frame);
+                    const double a = m_tracks[i].positionAt(frame);
+                    const double b = m_tracks[j].positionAt(frame);
+                    const double at = track.positionAt(frame);
                     if (at > std::min(a, b) - near() && at < std::max(a, b) + near()
                         && (at < std::min(a, b) - onPathCells * m_binsPerCell
                             || at > std::max(a, b) + onPathCells * m_binsPerCell))
@@ -129,7 +128,7 @@ namespace {
         {
             std::vector<double> sums{0.0};
             for (Index frame = frames.from; frame <= frames.to; ++frame)
-                sums.push_back(sums.back() + 0.5 * (positionAt(m_tracks[i], frame) + positionAt(m_tracks[j], frame)));
+                sums.push_back(sums.back() + 0.5 * (m_tracks[i].positionAt(frame) + m_tracks[j].positionAt(frame)));
             std::vector<Index> centres;
             for (Index at = 0; at < frames.count(); ++at) {
                 const Index reach = std::min({m_slopeFrames, at, frames.count() - 1 - at});
@@ -153,7 +152,7 @@ namespace {
                 jointPaths(std::move(strip), likelihood, Index(std::lround(pathsApartCells * m_binsPerCell)), context);
             const auto apart = [&](std::size_t path, std::size_t track, Index frame) {
                 return std::abs(double(paths[path][std::size_t(frame - frames.from)])
-                                - positionAt(m_tracks[track], frame));
+                                - m_tracks[track].positionAt(frame));
             };
             const auto isCrosswise = [&](Index frame) {
                 return apart(0, i, frame) + apart(1, j, frame) > apart(0, j, frame) + apart(1, i, frame);
@@ -210,8 +209,8 @@ namespace {
             const Track *nearest = nullptr;
             double least = onPathCells * m_binsPerCell;
             for (const Track &track : m_tracks)
-                if (!track.points.empty() && isThere(track, frame))
-                    if (const double apart = std::abs(positionAt(track, frame) - double(cell)); apart <= least) {
+                if (track.isThere(frame))
+                    if (const double apart = std::abs(track.positionAt(frame) - double(cell)); apart <= least) {
                         least = apart;
                         nearest = &track;
                     }
@@ -236,11 +235,11 @@ namespace {
                 const Index cell =
                     std::clamp<Index>(path[std::size_t(frame - frames.from)], 0, m_analysis.grid().size() - 1);
                 if (const Track *on = trackOn(cell, frame)) {
-                    append(*on, pointIndex(*on, frame));
+                    append(*on, on->pointIndex(frame));
                     continue;
                 }
-                SmoothedPoint point = head.smoothed[pointIndex(head, frame)];
-                TrackPoint at = head.points[pointIndex(head, frame)];
+                SmoothedPoint point = head.smoothedAt(frame);
+                TrackPoint at = head.points[head.pointIndex(frame)];
                 at.cell = cell;
                 at.statistic = result.points.empty() ? 0.0 : result.points.back().statistic;
                 point.position = double(cell);

@@ -1,7 +1,6 @@
 #include "refine/encounters.h"
 
 #include "refine/PolynomialFit.h"
-#include "refine/atFrame.h"
 #include "refine/constants.h"
 
 #include <algorithm>
@@ -140,8 +139,8 @@ namespace {
         const Index end = isFirst ? firstFrame(track) : lastFrame(track);
         const Index inwards = isFirst ? 1 : -1;
         Index near = end;
-        for (Index frame = end; isThere(track, frame) && isThere(beside, frame); frame += inwards) {
-            const double apart = std::abs(positionAt(track, frame) - positionAt(beside, frame));
+        for (Index frame = end; track.isThere(frame) && beside.isThere(frame); frame += inwards) {
+            const double apart = std::abs(track.positionAt(frame) - beside.positionAt(frame));
             if (apart < rule.endNear)
                 near = frame;
             const Index run = std::abs(end - near) + 1;
@@ -157,7 +156,7 @@ namespace {
     {
         for (const bool isFirst : {true, false}) {
             const Index end = isFirst ? firstFrame(track) : lastFrame(track);
-            if (!isThere(beside, end) || std::abs(positionAt(track, end) - positionAt(beside, end)) >= rule.endNear)
+            if (!beside.isThere(end) || std::abs(track.positionAt(end) - beside.positionAt(end)) >= rule.endNear)
                 continue;
             mark(beside, {end - rule.endFrames, end + rule.endFrames}, marksBeside);
             markApproach(track, isFirst, beside, rule, marks);

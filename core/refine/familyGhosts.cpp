@@ -38,8 +38,7 @@ namespace {
     private:
         double hzAt(const Track &track, Index frame) const
         {
-            const auto point = std::size_t(frame - track.points.front().frame);
-            return m_axis.value(track.lastPosition(std::min(point, track.points.size() - 1), m_axis));
+            return m_axis.value(track.lastPosition(std::min(track.pointIndex(frame), track.points.size() - 1), m_axis));
         }
 
         double sharedAt(double hz, double otherHz) const

@@ -211,10 +211,7 @@ namespace {
         bool isVisible(Index frame, double position) const
         {
             return std::none_of(m_tracks.begin(), m_tracks.end(), [&](const Track &track) {
-                if (frame < track.points.front().frame || frame > track.points.back().frame)
-                    return false;
-                const auto at = std::size_t(frame - track.points.front().frame);
-                return std::abs(track.smoothed[at].position - position) < cells(crossingHidesCells);
+                return track.isThere(frame) && std::abs(track.positionAt(frame) - position) < cells(crossingHidesCells);
             });
         }
 
@@ -444,7 +441,7 @@ namespace {
         /// Gain of a track's statistic in a frame in which it is there.
         static double gainAt(const Track &track, Index frame)
         {
-            const auto i = std::size_t(frame - track.points.front().frame);
+            const std::size_t i = track.pointIndex(frame);
             return track.points[i].statistic - (i > 0 ? track.points[i - 1].statistic : 0.0);
         }
 
@@ -477,9 +474,9 @@ namespace {
             const SmoothedPoint *nearest = nullptr;
             double least = cells(onPathCells);
             for (const Track &track : m_tracks) {
-                if (track.points.empty() || frame < track.points.front().frame || frame > track.points.back().frame)
+                if (!track.isThere(frame))
                     continue;
-                const SmoothedPoint &point = track.smoothed[std::size_t(frame - track.points.front().frame)];
+                const SmoothedPoint &point = track.smoothedAt(frame);
                 const double apart = std::abs(point.position - position);
                 if (apart <= least && point.presence > 0.5f && double(point.level) <= comparableLevelRatio * level) {
                     least = apart;

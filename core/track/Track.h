@@ -87,6 +87,16 @@ struct Track {
 
     bool hasSecondPass() const { return !smoothed.empty(); }
 
+    /// Whether it has a point at a frame; and, if so, its index, and what the second pass made of it: its position in cells
+    /// of the last axis, and all.
+    bool isThere(Index frame) const
+    {
+        return !points.empty() && frame >= points.front().frame && frame <= points.back().frame;
+    }
+    std::size_t pointIndex(Index frame) const { return std::size_t(frame - points.front().frame); }
+    double positionAt(Index frame) const { return smoothedAt(frame).position; }
+    const SmoothedPoint &smoothedAt(Index frame) const { return smoothed[pointIndex(frame)]; }
+
     /// Whether the signal is more likely present than absent at a point; without the second pass, always.
     bool isPresent(std::size_t point) const { return !hasSecondPass() || smoothed[point].presence > 0.5f; }
 
