@@ -29,11 +29,10 @@ namespace {
 
 SurrogateRecording::SurrogateRecording(const Spectrogram &spectrogram,
                                        std::shared_ptr<const NoiseBackground> background, std::uint64_t seed)
-    : m_base(spectrogram.recordingPointer()), m_baseChannel(spectrogram.selection().channel),
+    : DerivedRecording(spectrogram.recordingPointer()), m_baseChannel(spectrogram.selection().channel),
       m_background(std::move(background)), m_seed(seed),
       m_filter(Fft::fastLength((spectrogram.windowSamples() + 1) / 2) * 2)
 {
-    m_info = m_base->info();
     m_info.container = "surrogate";
     m_info.notes.push_back("Noise like that of " + m_base->info().path + ", without its signals.");
     m_step = quantisationStep(m_info.sampleType);

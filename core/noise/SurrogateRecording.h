@@ -19,18 +19,13 @@ namespace faintline {
 /// recording's length, rate, channel type and quantisation step, and is digitally silent where the recording is.
 /// Oracle: its own estimated background is the recording's. Thread-safe; samples are a pure function of (recording,
 /// background, seed, index).
-class SurrogateRecording final : public Recording
+class SurrogateRecording final : public DerivedRecording
 {
 public:
     SurrogateRecording(const Spectrogram &spectrogram, std::shared_ptr<const NoiseBackground> background,
                        std::uint64_t seed);
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
-    bool isWhole(Index first, Index count) const override { return m_base->isWhole(first, count); }
-    bool isFinite(int channel, Index first, Index count) const override
-    {
-        return m_base->isFinite(channel, first, count);
-    }
 
 private:
     void fillWhite(Index block, std::span<std::complex<float>> samples) const;
@@ -38,7 +33,6 @@ private:
     void addBlock(Index block, Index first, std::span<float> out) const;
     void silence(Index first, std::span<float> out) const;
 
-    RecordingPointer m_base;
     int m_baseChannel;
     std::shared_ptr<const NoiseBackground> m_background;
     std::uint64_t m_seed;

@@ -15,9 +15,8 @@ void checkInjections(const std::vector<InjectedLine> &lines, const RecordingInfo
 
 InjectedRecording::InjectedRecording(RecordingPointer base, const std::vector<InjectedLine> &lines, int channel,
                                      std::uint64_t seed)
-    : m_base(std::move(base)), m_channel(channel)
+    : DerivedRecording(std::move(base)), m_channel(channel)
 {
-    m_info = m_base->info();
     for (const auto &[line, amplitude] : lines) {
         checkLine(line, m_info, "lines[" + std::to_string(m_tones.size()) + "]");
         m_tones.emplace_back(line, amplitude, m_info, seed, std::ssize(m_tones));

@@ -18,24 +18,17 @@ void checkInjections(const std::vector<InjectedLine> &lines, const RecordingInfo
 
 /// A recording with known lines added to one channel. The caller computes the amplitude for a wanted SNR in this noise
 /// (toneAmplitude). Thread-safe.
-class InjectedRecording final : public Recording
+class InjectedRecording final : public DerivedRecording
 {
 public:
     /// Throws Error as checkLine does.
     InjectedRecording(RecordingPointer base, const std::vector<InjectedLine> &lines, int channel, std::uint64_t seed);
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
-    int scaleExponent(int channel) const override { return m_base->scaleExponent(channel); }
-    bool isWhole(Index first, Index count) const override { return m_base->isWhole(first, count); }
-    bool isFinite(int channel, Index first, Index count) const override
-    {
-        return m_base->isFinite(channel, first, count);
-    }
 
     Truth truth() const;
 
 private:
-    RecordingPointer m_base;
     int m_channel;
     std::vector<Tone> m_tones;
 };

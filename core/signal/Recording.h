@@ -123,4 +123,22 @@ private:
 
 using RecordingPointer = std::shared_ptr<const Recording>;
 
+/// A recording made from another one, sample by sample: as large, as whole and as finite as that.
+class DerivedRecording : public Recording
+{
+public:
+    int scaleExponent(int channel) const override { return m_base->scaleExponent(channel); }
+    bool isWhole(Index first, Index count) const override { return m_base->isWhole(first, count); }
+    bool isFinite(int channel, Index first, Index count) const override
+    {
+        return m_base->isFinite(channel, first, count);
+    }
+
+protected:
+    /// With the info of `base`.
+    explicit DerivedRecording(RecordingPointer base) : m_base(std::move(base)) { m_info = m_base->info(); }
+
+    RecordingPointer m_base;
+};
+
 } // namespace faintline

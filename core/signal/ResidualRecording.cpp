@@ -113,9 +113,8 @@ namespace {
 
 ResidualRecording::ResidualRecording(RecordingPointer base, int channel, std::vector<LinePath> paths,
                                      const Recording *noise, const RunContext &context)
-    : m_base(std::move(base)), m_channel(channel)
+    : DerivedRecording(std::move(base)), m_channel(channel)
 {
-    m_info = m_base->info();
     std::vector<float> simulated;
     for (LinePath &path : paths) {
         const double done = double(m_lines.size()) / double(paths.size());

@@ -85,7 +85,7 @@ private:
 /// (SurrogateRecording), the difference from it is fitted instead, x - P(x - w): the noise remains white, without a
 /// notch that would lower the background nearby. Thread-safe; samples are a pure function of (recording, paths, noise,
 /// index).
-class ResidualRecording final : public Recording
+class ResidualRecording final : public DerivedRecording
 {
 public:
     /// `paths`: in order of decreasing strength; `noise`: as long as the recording, one channel; null: none. Reads the
@@ -96,15 +96,8 @@ public:
     const std::vector<LineFit> &lines() const { return m_lines; }
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
-    int scaleExponent(int channel) const override { return m_base->scaleExponent(channel); }
-    bool isWhole(Index first, Index count) const override { return m_base->isWhole(first, count); }
-    bool isFinite(int channel, Index first, Index count) const override
-    {
-        return m_base->isFinite(channel, first, count);
-    }
 
 private:
-    RecordingPointer m_base;
     int m_channel;
     std::vector<LineFit> m_lines;
 };

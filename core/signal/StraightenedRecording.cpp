@@ -95,10 +95,9 @@ namespace {
 
 StraightenedRecording::StraightenedRecording(RecordingPointer base, int channel, const FrequencyCurve &curve,
                                              double toHz)
-    : m_base(std::move(base)), m_channel(channel), m_curve(curve), m_toHz(toHz), m_filter(filterSamples),
+    : DerivedRecording(std::move(base)), m_channel(channel), m_curve(curve), m_toHz(toHz), m_filter(filterSamples),
       m_gains(analyticGains())
 {
-    m_info = m_base->info();
     checkTarget(toHz, m_info);
     if (channel < 0 || channel >= m_info.channelCount)
         throw Error("channel " + std::to_string(channel), "the recording has no such channel");

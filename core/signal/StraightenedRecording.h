@@ -16,7 +16,7 @@ namespace faintline {
 /// continuous function of the curve alone. The whole band moves with the line, so the noise is unchanged; components
 /// within |f - f0| of 0 Hz or half the rate are aliased. Thread-safe; samples are a pure function of (recording, curve,
 /// index).
-class StraightenedRecording final : public Recording
+class StraightenedRecording final : public DerivedRecording
 {
 public:
     /// `toHz`: f0. Throws Error if it lies outside the recording's band.
@@ -26,18 +26,12 @@ public:
     double targetHz() const { return m_toHz; }
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
-    bool isWhole(Index first, Index count) const override { return m_base->isWhole(first, count); }
-    bool isFinite(int channel, Index first, Index count) const override
-    {
-        return m_base->isFinite(channel, first, count);
-    }
     int scaleExponent(int /*channel*/) const override { return m_base->scaleExponent(m_channel); }
 
 private:
     void turn(Index first, std::span<float> samples) const;
     void addBlock(Index block, Index first, std::span<float> out) const;
 
-    RecordingPointer m_base;
     int m_channel;
     FrequencyCurve m_curve;
     double m_toHz;

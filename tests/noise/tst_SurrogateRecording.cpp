@@ -2,6 +2,7 @@
 #include "noise/NoiseNormaliser.h"
 #include "noise/SurrogateRecording.h"
 #include "scene/SimulatedRecording.h"
+#include "signal/ArrayRecording.h"
 #include "support/recordings.h"
 #include "support/test.h"
 
@@ -64,6 +65,21 @@ private slots:
         SurrogateRecording(*original, background, 1).read(0, 1000, samples, a);
         SurrogateRecording(*original, background, 2).read(0, 1000, samples, b);
         QVERIFY(a != b);
+    }
+
+    /// The squares of a strain of 1e-22 are below the range of single precision, unless its scale is removed.
+    void hasTheScaleOfTheRecording()
+    {
+        const auto strain = std::make_shared<std::vector<float>>(10000);
+        Random(8, 0).normals(*strain, 1e-22f);
+        const Spectrogram original(
+            std::make_shared<ArrayRecording>("strain", std::shared_ptr<const float>(strain, strain->data()),
+                                             ArrayLayout{100.0, std::ssize(*strain)}),
+            {.windowSeconds = 2.0});
+        const auto background = estimateBackground(original, {});
+        const Spectrogram surrogate(std::make_shared<SurrogateRecording>(original, background, 1), original.settings());
+        const auto again = estimateBackground(surrogate, {});
+        QVERIFY(std::abs(again->lnPowerAt(50.0, 25.0) - background->lnPowerAt(50.0, 25.0)) < 0.25);
     }
 
     void isSilentWhereTheRecordingIs()
