@@ -32,8 +32,8 @@ struct FamilySettings {
     Present present = Present::Together;
 
     bool isNone() const { return relation == Relation::None; }
-    /// The first bin of a band in which a member counts, and as far from its end the last one. At real ends (0 Hz and half
-    /// the rate of real samples), where a line alone is excluded by the chain, members are left out.
+    /// The first bin of a band in which a member counts, and as far from its end the last one. At real ends (0 Hz and
+    /// half the rate of real samples), where a line alone is excluded by the chain, members are left out.
     Index firstBin(bool hasRealEnds) const { return hasRealEnds && !isNone() ? 1 : 0; }
     /// Whether the evidence of several lines is added: of members, or of channels.
     bool isSum(int channels) const { return !isNone() || channels > 1; }
@@ -80,8 +80,8 @@ std::vector<double> memberFrequencies(const FamilySettings &settings, double hz)
 class FamilyMap
 {
 public:
-    /// On a bounded band, whose ends may be real (FamilySettings::firstBin). Throws Error if the family does not fit into
-    /// it.
+    /// On a bounded band, whose ends may be real (FamilySettings::firstBin). Throws Error if the family does not fit
+    /// into it.
     FamilyMap(const FamilySettings &settings, const Axis &frequency, bool hasRealEnds, int channels = 1);
 
     /// On a circular band of `bins` with all cells alike, for calibration. `binsPerHz` converts offsets. Each channel

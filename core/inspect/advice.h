@@ -27,8 +27,8 @@ bool isAsked(const Analysis &analysis, double windowSeconds);
 
 /// Lines at the limit of the model's slope set, for frames on one axis: sure tracks (AnalysisPlan::sureStatistic) with
 /// the steepest slope in more than half of their frames, if they have a twentieth of all sure tracks' frames. Faster
-/// lines are lost or cut. In a window half as long the same drift is a quarter of the slope in bins per frame. No advice
-/// if shorter windows were asked, which follow them.
+/// lines are lost or cut. In a window half as long the same drift is a quarter of the slope in bins per frame. No
+/// advice if shorter windows were asked, which follow them.
 std::optional<Advice> adviceOnSlopes(const Analysis &analysis);
 
 /// Pairs of sure tracks of the analysis' own window that run side by side for most of the shorter one's time, less than

@@ -117,17 +117,12 @@ namespace {
 
 } // namespace
 
-Index stateCount(const AnalysisPlan &plan)
+std::size_t bytesOfStates(const AnalysisPlan &plan)
 {
     Index states = 0;
     for (std::size_t i = 0; i < plan.modelCount(); ++i)
         states += plan.modelAt(i).space.stateCount();
-    return states;
-}
-
-std::size_t bytesOfStates(const AnalysisPlan &plan)
-{
-    return sizeof(float) * std::size_t(stateCount(plan));
+    return sizeof(float) * std::size_t(states);
 }
 
 std::unique_ptr<Detector> makeDetector(const AnalysisPlan &plan)

@@ -8,9 +8,7 @@
 
 namespace faintline {
 
-/// Number of states of the model, or of all models of the bank.
-Index stateCount(const AnalysisPlan &plan);
-/// Memory for the scores of all states.
+/// Memory for the scores of all states of the model, or of all models of the bank.
 std::size_t bytesOfStates(const AnalysisPlan &plan);
 
 /// The detection chain of a plan, at its first frame.

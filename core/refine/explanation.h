@@ -87,8 +87,8 @@ private:
 /// signal are not known to hold nothing else: there λ = -(ln K + ln h(0)) - 0.05, so that a path that goes on behind a
 /// stronger signal loses as much as in noise, and none gains. Only tracks that the first run could not find are
 /// returned: at half of their points or more the floor is raised within a resolution cell, so that frames in which no
-/// such track can lie are left out (Explanations::stretches). Because they are a second chance for noise, they also have
-/// to be a hundred times rarer than ordered (AnalysisPlan::sureStatistic). Throws Cancelled.
+/// such track can lie are left out (Explanations::stretches). Because they are a second chance for noise, they also
+/// have to be a hundred times rarer than ordered (AnalysisPlan::sureStatistic). Throws Cancelled.
 std::vector<Track> searchBehind(const Analysis &analysis, const Explanations &explanations, const RunContext &context);
 
 } // namespace faintline

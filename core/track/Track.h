@@ -87,8 +87,8 @@ struct Track {
 
     bool hasSecondPass() const { return !smoothed.empty(); }
 
-    /// Whether it has a point at a frame; and, if so, its index, and what the second pass made of it: its position in cells
-    /// of the last axis, and all.
+    /// Whether it has a point at a frame; and, if so, its index, and what the second pass made of it: its position in
+    /// cells of the last axis, and all.
     bool isThere(Index frame) const
     {
         return !points.empty() && frame >= points.front().frame && frame <= points.back().frame;

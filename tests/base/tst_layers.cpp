@@ -4,7 +4,7 @@ namespace {
 
 const QStringList order{"base", "signal", "frames",    "noise",   "scene",   "model",    "recursion", "detect", "track",
                         "plan", "refine", "calibrate", "analyse", "inspect", "evaluate", "exchange",  "live"};
-constexpr int mostArrows = 80;
+constexpr int mostArrows = 77;
 const QStringList widgetOrder{"base", "table", "plot", "waterfall", "pings", "events", "forms"};
 const QStringList appOrder{"cli", "base", "commands", "document", "features", "views", "lessons", "window", "headless"};
 
