@@ -75,10 +75,15 @@ void tst_everyDoor::survey()
 {
     QCOMPARE(run({"survey", "night", "--out", "s.sqlite"}).code, 0);
     QCOMPARE(run({"survey", "export", "s.sqlite", "--events", "s.csv"}).code, 0);
+    constexpr int kinds = 2; // keyed and spread, behind the columns that a survey has
+    const auto columns = m_rows[0].count(',') + 1 - kinds;
     QByteArrayList found;
+    QByteArrayList expected;
     for (const QByteArray &row : rowsOf(content("s.csv"))) // recording and time before, box and review behind
-        found << row.split(',').mid(2, m_rows[0].count(',') + 1).join(',');
-    QCOMPARE(found, m_rows);
+        found << row.split(',').mid(2, columns).join(',');
+    for (const QByteArray &row : m_rows)
+        expected << row.split(',').mid(0, columns).join(',');
+    QCOMPARE(found, expected);
 }
 
 void tst_everyDoor::python()
