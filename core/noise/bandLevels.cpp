@@ -44,15 +44,15 @@ namespace {
     }
 
     /// Cells first … end-1.
-    struct CellRange {
+    struct RunOfCells {
         Index first;
         Index end;
     };
 
     /// The wanted ones of a range of cells.
-    std::vector<CellRange> wantedCells(const std::vector<bool> &isWanted, CellRange range)
+    std::vector<RunOfCells> wantedCells(const std::vector<bool> &isWanted, RunOfCells range)
     {
-        std::vector<CellRange> wanted;
+        std::vector<RunOfCells> wanted;
         for (Index cell = range.first; cell < range.end; ++cell) {
             if (!isWanted[std::size_t(cell)])
                 continue;
@@ -63,10 +63,10 @@ namespace {
         return wanted;
     }
 
-    Index countOf(const std::vector<CellRange> &ranges)
+    Index countOf(const std::vector<RunOfCells> &ranges)
     {
         Index count = 0;
-        for (const CellRange &range : ranges)
+        for (const RunOfCells &range : ranges)
             count += range.end - range.first;
         return count;
     }
@@ -91,7 +91,7 @@ namespace {
                 m_inverse[cell] =
                     block.lnPower[cell] > NoiseBackground::silence ? std::exp(-block.lnPower[cell]) : 0.0f;
             for (Index band = 0; band < bands; ++band) {
-                const CellRange range{firstCell(band, bands, m_cells), endCell(band, bands, m_cells)};
+                const RunOfCells range{firstCell(band, bands, m_cells), endCell(band, bands, m_cells)};
                 m_noise.push_back(wantedCells(block.isNoise, range));
                 m_firm.push_back(wantedCells(block.isFirm, range));
                 m_isMostlyFirm.push_back(2 * countOf(m_firm.back()) >= range.end - range.first);
@@ -142,7 +142,7 @@ namespace {
         }
 
         /// Adds the frame over the background in those cells to the sample.
-        void collect(std::span<const float> frame, const std::vector<CellRange> &wanted)
+        void collect(std::span<const float> frame, const std::vector<RunOfCells> &wanted)
         {
             for (const auto &[first, end] : wanted) {
                 multiply(frame.data() + first, m_inverse.data() + first, end - first, m_products.data() + m_count);
@@ -165,8 +165,8 @@ namespace {
         double m_likeness;
         float m_agreeing; ///< maximum distance of a sub-band's level from the median one
         std::vector<float> m_inverse;
-        std::vector<std::vector<CellRange>> m_noise; ///< cells of noise in each sub-band
-        std::vector<std::vector<CellRange>> m_firm;  ///< those whose background is firm
+        std::vector<std::vector<RunOfCells>> m_noise; ///< cells of noise in each sub-band
+        std::vector<std::vector<RunOfCells>> m_firm;  ///< those whose background is firm
         std::vector<bool> m_isMostlyFirm;            ///< each sub-band
         std::vector<float> m_medians;                ///< of each sub-band in the frame before
         std::vector<float> m_products;               ///< begins with the sample

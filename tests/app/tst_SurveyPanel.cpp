@@ -62,6 +62,14 @@ private slots:
         QVERIFY(openSurvey("s.sqlite"));
     }
 
+    void knowsSurveysByTheirHeader()
+    {
+        std::filesystem::copy(path("s.sqlite"), path("named.otherwise"));
+        QVERIFY(SurveyPanel::isSurvey(m_folder.filePath("named.otherwise")));
+        QVERIFY(!SurveyPanel::isSurvey(m_folder.filePath("a.wav")));
+        QVERIFY(!SurveyPanel::isSurvey(m_folder.filePath("none.wav")));
+    }
+
     void isATableOfAllEvents()
     {
         QVERIFY(panel().isVisible());

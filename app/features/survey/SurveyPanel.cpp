@@ -2,6 +2,7 @@
 
 #include "app/base/filePath.h"
 #include "app/base/writeAndReport.h"
+#include "exchange/survey/SurveyDatabase.h"
 #include "widgets/base/labelText.h"
 #include "widgets/table/ColumnTable.h"
 
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <memory>
 #include <new>
+#include <span>
 #include <utility>
 
 namespace faintline {
@@ -87,7 +89,16 @@ bool SurveyPanel::eventFilter(QObject *watched, QEvent *event)
 
 bool SurveyPanel::isSurvey(const QString &path)
 {
-    return path.endsWith(QLatin1String(".sqlite"), Qt::CaseInsensitive);
+    if (path.endsWith(QLatin1String(".sqlite"), Qt::CaseInsensitive))
+        return true;
+    if (!isRegularFile(path))
+        return false;
+    try {
+        const QByteArray beginning = readBeginning(path, surveyHeaderBytes);
+        return isSurveyHeader(std::as_bytes(std::span(beginning.constData(), std::size_t(beginning.size()))));
+    } catch (const Error &) { // what opens it says why
+        return false;
+    }
 }
 
 void SurveyPanel::open(const QString &path)

@@ -27,7 +27,7 @@ public:
     /// Reads a survey file in the background, then shows it; ends with `opened` or `failed`.
     void open(const QString &path);
     JobRunner &runner() { return m_runner; }
-    /// Whether a file is opened by this panel, according to its name.
+    /// Whether a file is opened by this panel, according to its name or its header.
     static bool isSurvey(const QString &path);
 
     ColumnTable *table() const { return m_table; }

@@ -18,6 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+    constexpr std::string_view databaseMagic("SQLite format 3\0", 16);
+
     fs::path folderOf(const std::string &database)
     {
         return fs::absolute(database).lexically_normal().parent_path();
@@ -70,6 +72,12 @@ std::string storedPath(const std::string &recording, const std::string &database
     return textFromFileName(isBelow ? relative.string() : recording);
 }
 
+bool isSurveyHeader(std::span<const std::byte> header)
+{
+    return header.size() == surveyHeaderBytes && asText(header).starts_with(databaseMagic)
+           && std::int64_t(bigEndian(header.last(4))) == surveyApplicationId;
+}
+
 // ---- reading -------------------------------------------------------------------------------------------------------
 
 SurveyDatabase::SurveyDatabase(const std::string &path, Sqlite::Access access, std::chrono::milliseconds patience)
@@ -83,14 +91,12 @@ SurveyDatabase::SurveyDatabase(const std::string &path, Sqlite::Access access, s
 /// Call before the first transaction: reading a database with a write-ahead log, left by another program, changes it.
 void SurveyDatabase::checkHeader()
 {
-    std::array<std::byte, 72> header{};
+    std::array<std::byte, surveyHeaderBytes> header{};
     const std::size_t bytes = m_database.readBeginning(header);
-    constexpr std::string_view magic("SQLite format 3\0", 16);
-    if (bytes > 0 && !asText(header).starts_with(magic))
+    if (bytes > 0 && !asText(header).starts_with(databaseMagic))
         throw Error(path(), "is not an SQLite database");
-    const auto applicationId = std::int64_t(bigEndian(std::span(header).last(4)));
     const bool hasLog = header[18] != std::byte(1) || header[19] != std::byte(1);
-    if (bytes < header.size() || hasLog || applicationId != surveyApplicationId)
+    if (hasLog || !isSurveyHeader(std::span(header).first(bytes)))
         throw Error(path(), "is not a survey; 'faintline-cli survey' creates surveys");
 }
 

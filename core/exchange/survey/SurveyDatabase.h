@@ -4,10 +4,15 @@
 #include "exchange/survey/SurveyOrigin.h"
 #include "exchange/survey/SurveyOutcome.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
 namespace faintline {
+
+/// What a file of a survey begins with.
+inline constexpr std::size_t surveyHeaderBytes = 72;
+bool isSurveyHeader(std::span<const std::byte> header);
 
 /// A survey of recordings in one SQLite file. `writeSurvey` creates one.
 ///
