@@ -167,10 +167,10 @@ namespace {
         std::vector<float> m_inverse;
         std::vector<std::vector<RunOfCells>> m_noise; ///< cells of noise in each sub-band
         std::vector<std::vector<RunOfCells>> m_firm;  ///< those whose background is firm
-        std::vector<bool> m_isMostlyFirm;            ///< each sub-band
-        std::vector<float> m_medians;                ///< of each sub-band in the frame before
-        std::vector<float> m_products;               ///< begins with the sample
-        Index m_count = 0;                           ///< cells of the sample
+        std::vector<bool> m_isMostlyFirm;             ///< each sub-band
+        std::vector<float> m_medians;                 ///< of each sub-band in the frame before
+        std::vector<float> m_products;                ///< begins with the sample
+        Index m_count = 0;                            ///< cells of the sample
         std::vector<Index> m_telling;
         std::vector<Index> m_known;
     };
