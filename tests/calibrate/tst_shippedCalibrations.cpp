@@ -114,7 +114,10 @@ private slots:
     {
         QFETCH(std::string, key);
         const auto shipped = CalibrationStore({}).load(key);
-        const auto today = makeCalibration(requestOf(key), smallEffort());
+        // Of a path that is never reset few excursions end, so that a fifth of the noise has too few of them.
+        const bool isReset = shipped->continuedFraction < 0.9;
+        const auto today =
+            makeCalibration(requestOf(key), isReset ? smallEffort() : effortOf(CalibrationDepth::Refined));
         QVERIFY2(std::abs(today->lnK - shipped->lnK) < 2e-3,
                  qPrintable(QString("ln K %1, shipped %2").arg(today->lnK).arg(shipped->lnK)));
         for (const double p : {0.1, 1e-3}) {
