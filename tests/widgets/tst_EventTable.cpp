@@ -293,6 +293,8 @@ private slots:
         events[1].kind = SignalKind::Keyed;
         m_table->setEvents(events);
         QVERIFY(!m_table->table()->isColumnHidden(EventModel::Kind));
+        m_table->setSelectedEvent(2);
+        QVERIFY(m_table->card().text().startsWith("Event 2, keyed"));
     }
 
 private:

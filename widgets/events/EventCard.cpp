@@ -82,7 +82,9 @@ void EventCard::fill()
     if (m_row < 0)
         return;
     const Event &event = m_model.events()[std::size_t(m_row)];
-    m_title->setText(tr("Event %1").arg(event.id));
+    m_title->setText(event.kind > SignalKind::Line
+                         ? tr("Event %1, %2").arg(event.id).arg(QString::fromStdString(nameOf(event.kind)))
+                         : tr("Event %1").arg(event.id));
     std::vector<Fact> facts;
     for (const int column :
          {EventModel::Frequency, EventModel::Bearing, EventModel::ThirdAxis, EventModel::FourthAxis, EventModel::Snr})
@@ -95,8 +97,7 @@ void EventCard::fill()
     const QString to = factOf(m_model, m_row, EventModel::End).value;
     const bool isClock = from.contains(QLatin1Char(':'));
     facts.push_back({tr("Time"), isClock ? tr("%1 … %2").arg(from, to) : tr("%1 … %2 s").arg(from, to)});
-    for (const int column :
-         {EventModel::Drift, EventModel::Window, EventModel::Kind, EventModel::Utc, EventModel::Radio})
+    for (const int column : {EventModel::Drift, EventModel::Window, EventModel::Utc, EventModel::Radio})
         if (column != EventModel::Radio || m_model.hasRadio())
             facts.push_back(factOf(m_model, m_row, column));
     for (const int column : {EventModel::Chance, EventModel::Class, EventModel::Judged, EventModel::Note})
