@@ -2,6 +2,7 @@
 
 #include "widgets/base/CanvasSentence.h"
 #include "widgets/base/Theme.h"
+#include "widgets/base/fittingTitle.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 #include "widgets/base/scaleTicks.h"
@@ -26,6 +27,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <tuple>
 
 namespace faintline {
 
@@ -254,6 +256,13 @@ void ChartPlot::layAxes()
     m_plot->setAxisScaleDiv(QwtAxis::YLeft, m_chart.isLogarithmicY
                                                 ? digitScaleDiv(y)
                                                 : linearScaleDiv(y, std::clamp(size.height() / 30, 2, 10)));
+    for (const auto &[axis, whole, room] : {std::tuple(QwtAxis::XBottom, m_chart.xLabel, size.width()),
+                                            std::tuple(QwtAxis::YLeft, m_chart.yLabel, size.height())}) {
+        QwtText title = m_plot->axisTitle(axis);
+        title.setText(fittingTitle(words(whole), title.font(), room));
+        if (title != m_plot->axisTitle(axis))
+            m_plot->setAxisTitle(axis, title);
+    }
     m_plot->replot();
 }
 

@@ -118,6 +118,7 @@ void ReproductionPanel::show(std::shared_ptr<const Reproduction> reproduction)
     for (const Chart &chart : m_reproduction->charts)
         m_which->addItem(QString::fromStdString(chart.title));
     m_which->setVisible(m_reproduction->charts.size() > 1);
+    m_plot->setEmptySentence(tr("This one has no chart."));
     m_plot->setChart(m_reproduction->charts.empty() ? Chart() : m_reproduction->charts.front());
     fillTable();
 }
