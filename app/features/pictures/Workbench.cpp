@@ -344,10 +344,10 @@ void Workbench::showWhatFits()
     const bool isStacked = timeStack().isOn();
     const int enoughForOne = isStacked ? 520 : 460; // the pictures keep 350, or 200 each above each other
     const int enoughForBoth = isStacked ? 610 : 570;
-    const bool isRegulationFirst = m_isRegulationFirst && m_isRegulationWanted && !m_document.isLive();
+    const bool hasRegulation = m_isRegulationWanted && !m_document.isLive();
+    const bool isRegulationFirst = m_isRegulationFirst && hasRegulation;
     m_statistic->setVisible(height() >= (isRegulationFirst ? enoughForBoth : enoughForOne));
-    m_regulation->setVisible(m_isRegulationWanted && height() >= (isRegulationFirst ? enoughForOne : enoughForBoth)
-                             && !m_document.isLive());
+    m_regulation->setVisible(hasRegulation && height() >= (isRegulationFirst ? enoughForOne : enoughForBoth));
 }
 
 void Workbench::setRegulationFirst(bool isFirst)

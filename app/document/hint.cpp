@@ -1,4 +1,4 @@
-#include "app/window/hint.h"
+#include "app/document/hint.h"
 
 #include "app/document/Document.h"
 #include "app/document/thresholdWords.h"
