@@ -270,24 +270,24 @@ namespace {
         }
 
         /// Asks those tracks of the base that are left again, over the floor of stronger signals of other windows.
-        void askBaseAgain()
+        void askBaseAgain(const RunContext &context)
         {
             setOther(m_base);
-            std::vector<std::size_t> asked;
-            std::vector<std::vector<std::size_t>> others;
-            std::vector<PathStrip> strips;
-            for (std::size_t s = 0; s < m_tracks.size(); ++s)
-                if (std::vector<std::size_t> stronger = strongerOnes(s); !stronger.empty()) {
-                    asked.push_back(s);
-                    others.push_back(std::move(stronger));
-                    strips.push_back(stripAlong(m_tracks[s], m_halfWidth));
-                }
-            std::vector<PathStrip *> all;
-            for (PathStrip &strip : strips)
-                all.push_back(&strip);
-            readStrips(m_base, std::move(all), {}, "comparing windows");
-            for (std::size_t i = 0; i < asked.size(); ++i)
-                keepUnexplained(asked[i], strips[i], others[i]);
+            for (std::size_t s = 0; s < m_tracks.size();) {
+                std::vector<std::size_t> asked;
+                std::vector<std::vector<std::size_t>> others;
+                std::vector<PathStrip> strips;
+                for (std::size_t bytes = 0; s < m_tracks.size() && bytes < windowStripsBytes; ++s)
+                    if (std::vector<std::size_t> stronger = strongerOnes(s); !stronger.empty()) {
+                        asked.push_back(s);
+                        others.push_back(std::move(stronger));
+                        strips.push_back(stripAlong(m_tracks[s], m_halfWidth));
+                        bytes += sizeof(float) * std::size_t(strips.back().frameCount() * strips.back().width());
+                    }
+                readStrips(m_base, strips, context, "comparing windows");
+                for (std::size_t i = 0; i < asked.size(); ++i)
+                    keepUnexplained(asked[i], strips[i], others[i]);
+            }
         }
 
         AskedWindows take()
@@ -313,6 +313,8 @@ namespace {
         {
             const Curve &own = m_curves[s];
             const auto meets = [&](const Curve &other) {
+                if (own.end() < other.heardFrom() - windowHalf() || own.start() > other.heardUntil() + windowHalf())
+                    return false;
                 for (std::size_t i = 0; i < own.count(); ++i) {
                     const double t = own.secondsAt(i);
                     const Band band = other.between(t - windowHalf(), t + windowHalf());
@@ -323,8 +325,10 @@ namespace {
                 return false;
             };
             std::vector<std::size_t> result;
-            for (std::size_t other = 0; m_tracks[s].windowSeconds == 0.0 && other < m_tracks.size(); ++other)
-                if (m_tracks[other].windowSeconds > 0.0 && !m_tracks[other].points.empty()
+            if (own.count() == 0 || m_tracks[s].windowSeconds > 0.0)
+                return result;
+            for (std::size_t other = 0; other < m_tracks.size(); ++other)
+                if (m_tracks[other].windowSeconds > 0.0 && m_curves[other].count() > 0
                     && m_tracks[other].peakStatistic > m_tracks[s].peakStatistic && meets(m_curves[other]))
                     result.push_back(other);
             return result;
@@ -776,7 +780,7 @@ AskedWindows withOtherWindows(const Analysis &base, std::span<const std::shared_
     const auto count = double(byEvidence.size());
     for (std::size_t i = 0; i < byEvidence.size(); ++i) {
         signals.ask(*byEvidence[i], context.part(double(i) / count, double(i + 1) / count));
-        signals.askBaseAgain();
+        signals.askBaseAgain(context.part(double(i + 1) / count, double(i + 1) / count));
     }
     return signals.take();
 }
