@@ -68,7 +68,7 @@ struct TracksOnAxes {
 /// steady line has the same E in both: its r grows with T_FT as the number of frames falls. The power of a line that
 /// moves by more than a cell within the longer window spreads over several cells, of which a path follows one. Returns
 /// the median, weighted by duration, over the tracks X of at least `leastStatistic` that the longer window detected at
-/// all; NaN without such tracks.
+/// all; NaN without such tracks. All tracks must be two-sided (secondLook.h).
 double energyKept(const TracksOnAxes &shorter, const TracksOnAxes &longer, double leastStatistic);
 
 } // namespace faintline

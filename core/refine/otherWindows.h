@@ -60,7 +60,8 @@ struct AskedWindows {
 /// Windows of fewer than OwnNoiseLaw::fewestFrames frames are not asked. Positions are interpolated between frames, or
 /// the means of those in the time from one of the base's frames to the next; statistics are shifted by the difference of
 /// the two thresholds, and powers divided by the ratio of the windows, so that both have the same meaning as in the base.
-/// The result is renumbered, by detection, then cell. All analyses must have two-sided tracks (secondLook.h). Throws Cancelled.
+/// The result is renumbered, by detection, then cell. All analyses must have two-sided tracks (secondLook.h). Throws
+/// Cancelled.
 AskedWindows withOtherWindows(const Analysis &base, std::span<const std::shared_ptr<const Analysis>> others,
                               const RunContext &context = {});
 
