@@ -187,17 +187,22 @@ namespace {
             const Index first = stream.position() - Index(block.size() / cells);
             context.checkpoint(double(first) / frameCount, "detecting");
             statistic.resize(block.size());
-            for (std::size_t at = 0; at < block.size(); at += cells) {
+            for (std::size_t at = 0; at < block.size();) {
                 const Index frame = first + Index(at / cells);
-                const auto y = std::span<const float>(block).subspan(at, cells);
                 if (isWhole && analysis.checkpoints.lacks(frame))
                     if (auto state = chain->state())
                         analysis.checkpoints.keep(frame, state, state->bytes());
-                chain->update(frame, y, std::span(statistic).subspan(at, cells));
-                const PathDetector::Regulation regulation = chain->detector().regulation();
-                analysis.lnK.push_back(float(regulation.lnK));
-                analysis.continuedFraction.push_back(float(regulation.continuedFraction));
-                pings.take(frame, y, *chain);
+                std::size_t end = at + cells; // of the frames before the next checkpoint
+                while (end < block.size() && !(isWhole && analysis.checkpoints.lacks(first + Index(end / cells))))
+                    end += cells;
+                const auto y = std::span<const float>(block).subspan(at, end - at);
+                const Index taken = chain->updateSome(frame, y, std::span(statistic).subspan(at, y.size()));
+                for (const PathDetector::Regulation &regulation : chain->regulations()) {
+                    analysis.lnK.push_back(float(regulation.lnK));
+                    analysis.continuedFraction.push_back(float(regulation.continuedFraction));
+                }
+                pings.take(frame, y.first(cells), *chain);
+                at += std::size_t(taken) * cells;
             }
             if (isWhole)
                 countValues(statistic, analysis.statisticCounts);

@@ -18,17 +18,18 @@ namespace {
         return double(noise.grid().size() * std::max<Index>(0, noise.time().count - settlingFrames));
     }
 
-    /// Calls take(frame, y) for each frame.
+    /// Calls take(first, y, statistic) for each block of frames; `statistic` is room for theirs.
     template <class Take>
-    void forEachFrame(const NormalisedFrames &noise, Take take)
+    void forEachBlock(const NormalisedFrames &noise, Take take)
     {
         const auto cells = std::size_t(noise.grid().size());
         std::vector<float> batch(framesAtOnce * cells);
+        std::vector<float> statistic(batch.size());
         for (Index first = 0; first < noise.time().count; first += framesAtOnce) {
             const Index count = std::min(framesAtOnce, noise.time().count - first);
-            noise.read(first, count, std::span(batch).first(std::size_t(count) * cells));
-            for (Index i = 0; i < count; ++i)
-                take(first + i, std::span<const float>(batch).subspan(std::size_t(i) * cells, cells));
+            const std::span<float> y = std::span(batch).first(std::size_t(count) * cells);
+            noise.read(first, count, y);
+            take(first, std::span<const float>(y), std::span(statistic).first(y.size()));
         }
     }
 
@@ -70,14 +71,10 @@ NoiseTail measureTail(const NormalisedFrames &noise, Detector &detector, const S
 {
     const Index cells = noise.grid().size();
     const Index columns = std::max<Index>(1, cells / noiseBlockCells);
-    std::vector<float> statistic(static_cast<std::size_t>(cells));
     std::vector<float> maxima(static_cast<std::size_t>(columns));
     NoiseTail tail;
     Index inBlock = 0;
-    forEachFrame(noise, [&](Index frame, std::span<const float> y) {
-        detector.update(y, statistic);
-        if (frame < settlingFrames)
-            return;
+    const auto count = [&](std::span<const float> statistic) {
         for (float value : statistic) {
             const float position = (value - levels.lowest) / levels.step;
             tail.counts[std::size_t(std::clamp(position, 0.0f, float(levelCount - 1)))] += 1.0;
@@ -94,6 +91,12 @@ NoiseTail measureTail(const NormalisedFrames &noise, Detector &detector, const S
             tail.blockMaxima.insert(tail.blockMaxima.end(), maxima.begin(), maxima.end());
             inBlock = 0;
         }
+    };
+    forEachBlock(noise, [&](Index first, std::span<const float> y, std::span<float> statistic) {
+        detector.updateBlock(y, statistic, cells);
+        const Index settling = std::clamp<Index>(settlingFrames - first, 0, std::ssize(y) / cells);
+        for (std::size_t at = std::size_t(settling * cells); at < y.size(); at += std::size_t(cells))
+            count(statistic.subspan(at, std::size_t(cells)));
     });
     tail.cellFrames = countedCellFrames(noise);
     return tail;
@@ -108,10 +111,9 @@ EventCounts countEvents(const AnalysisPlan &plan, std::span<const double> thresh
         chains.push_back(makeChain(own, makePathDetector(own), false));
     }
     const NormalisedFrames &noise = *plan.frames;
-    std::vector<float> statistic(std::size_t(noise.grid().size()));
-    forEachFrame(noise, [&](Index frame, std::span<const float> y) {
+    forEachBlock(noise, [&](Index first, std::span<const float> y, std::span<float> statistic) {
         for (const auto &chain : chains)
-            chain->update(frame, y, statistic);
+            chain->updateAll(first, y, statistic);
     });
     EventCounts counts;
     if (leavesOutFirst)

@@ -7,6 +7,19 @@
 
 namespace faintline {
 
+namespace {
+
+    /// Number of values that are NaN: not observed.
+    Index unknownIn(std::span<const float> y)
+    {
+        Index count = 0;
+        for (const float value : y)
+            count += value != value ? 1 : 0;
+        return count;
+    }
+
+} // namespace
+
 Smd::Smd(const MarkovModel &model, const ResetRule &rule)
     : m_space(model.space), m_likelihood(model.likelihood), m_rule(rule),
       m_recursion(model.space, model.transitionScale), m_scores(std::size_t(model.space.stateCount())),
@@ -20,7 +33,7 @@ void Smd::update(std::span<const float> y, std::span<float> statistic)
         start(y, statistic);
         return;
     }
-    const Continued all = advance(y, statistic);
+    const Continued all = advance(y, statistic).front();
     const Index cells = m_space.cellCount();
     const std::vector<Index> apart = notCounted(y);
     if (const Index counted = cells - std::ssize(apart); counted > 0) {
@@ -51,35 +64,71 @@ void Smd::start(std::span<const float> y, std::span<float> statistic)
     }
 }
 
+Index Smd::takenTogether(std::span<const float> y) const
+{
+    const Index cells = m_space.cellCount();
+    const Index frames = std::min(m_recursion.framesAtOnce(), std::ssize(y) / cells);
+    // A law that regulates K needs the frame before; states of unknown cells do not count.
+    const bool isRegulated = m_rule.law == ResetLaw::Mean || m_rule.law == ResetLaw::Half;
+    const bool isAlone = frames < 2 || m_frames == 0 || isRegulated;
+    return isAlone || unknownIn(y.first(std::size_t(frames * cells))) > 0 ? 1 : frames;
+}
+
+std::vector<PathDetector::Regulation> Smd::updateTogether(std::span<const float> y, std::span<float> statistic,
+                                                          std::span<const std::vector<Index>> inhibited)
+{
+    if (std::ssize(y) == m_space.cellCount())
+        return PathDetector::updateTogether(y, statistic, inhibited);
+    m_framesBefore = m_frames;
+    m_regulationBefore = m_regulation;
+    m_inhibited = inhibited.back();
+    std::vector<Regulation> result;
+    for (const Continued &continued : advance(y, statistic, inhibited)) {
+        const bool isCounted = m_rule.law != ResetLaw::None;
+        const Index apart = isCounted ? std::ssize(inhibited[result.size()]) : 0;
+        if (const Index counted = (m_space.cellCount() - apart) * m_space.planeCount(); counted > 0)
+            m_regulation = {m_lnK, double(continued.count) / double(counted), m_lnK};
+        result.push_back(m_regulation);
+    }
+    return result;
+}
+
+void Smd::takeBack()
+{
+    std::swap(m_scores, m_next);
+    m_frames = m_framesBefore;
+    m_regulation = m_regulationBefore;
+}
+
 void Smd::updateBlock(std::span<const float> y, std::span<float> statistic, Index cells)
 {
-    const auto size = std::size_t(cells);
-    const bool isRegulated = m_rule.law == ResetLaw::Mean || m_rule.law == ResetLaw::Half;
-    for (std::size_t done = 0; done < y.size();) {
-        const auto frames = std::size_t(std::min<Index>(m_recursion.framesAtOnce(), std::ssize(y) / cells));
-        const std::size_t count = std::min(frames, (y.size() - done) / size);
-        if (m_frames == 0 || isRegulated || count < 2 || !m_inhibited.empty()) {
-            update(y.subspan(done, size), statistic.subspan(done, size));
-            done += size;
-            continue;
-        }
-        const Continued last = advance(y.subspan(done, count * size), statistic.subspan(done, count * size));
-        m_regulation = {m_lnK, double(last.count) / double(m_space.stateCount()), m_lnK};
-        done += count * size;
+    while (!y.empty()) {
+        // Cells that are inhibited until the next call are not forgotten.
+        const Index count = m_inhibited.empty() ? takenTogether(y) : 1;
+        const auto size = std::size_t(count * cells);
+        if (count == 1)
+            update(y.first(size), statistic.first(size));
+        else
+            updateTogether(y.first(size), statistic.first(size), std::vector<std::vector<Index>>(std::size_t(count)));
+        y = y.subspan(size);
+        statistic = statistic.subspan(size);
     }
 }
 
-Continued Smd::advance(std::span<const float> y, std::span<float> statistic)
+std::vector<Continued> Smd::advance(std::span<const float> y, std::span<float> statistic,
+                                    std::span<const std::vector<Index>> inhibited)
 {
     FrameJoin join;
     join.lnK = float(m_lnK);
     join.floor = m_rule.law == ResetLaw::None ? unreached : 0.0f;
     join.counting = m_rule.law == ResetLaw::Mean ? Counting::StatesAndSum : Counting::States;
-    Continued continued = m_recursion.advance(m_scores, m_next, {y, statistic, m_frames}, m_likelihood, join);
+    std::vector<Continued> continued =
+        m_recursion.advance(m_scores, m_next, {y, statistic, m_frames, inhibited}, m_likelihood, join);
     std::swap(m_scores, m_next);
     m_frames += std::ssize(y) / m_space.cellCount();
     if (m_rule.law == ResetLaw::None)
-        continued.count = m_space.stateCount();
+        for (Continued &each : continued)
+            each.count = m_space.stateCount();
     return continued;
 }
 
@@ -89,9 +138,7 @@ std::vector<Index> Smd::notCounted(std::span<const float> y) const
     if (m_rule.law == ResetLaw::None)
         return {};
     std::vector<Index> result = m_inhibited;
-    Index unknown = 0;
-    for (const float value : y)
-        unknown += value != value ? 1 : 0;
+    const Index unknown = unknownIn(y);
     for (Index cell = 0; unknown > 0 && cell < std::ssize(y); ++cell)
         if (std::isnan(y[std::size_t(cell)]) && !std::ranges::binary_search(m_inhibited, cell))
             result.push_back(cell);

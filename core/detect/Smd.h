@@ -50,6 +50,10 @@ public:
 
     void update(std::span<const float> y, std::span<float> statistic) override;
     void updateBlock(std::span<const float> y, std::span<float> statistic, Index cells) override;
+    Index takenTogether(std::span<const float> y) const override;
+    std::vector<Regulation> updateTogether(std::span<const float> y, std::span<float> statistic,
+                                           std::span<const std::vector<Index>> inhibited) override;
+    void takeBack() override;
     void useThreads(int threads) override { m_recursion.useThreads(threads); }
     void forget(const Grid &grid, const CellBox &box) override;
     void inhibit(std::span<const Index> cells) override { m_inhibited.assign(cells.begin(), cells.end()); }
@@ -65,7 +69,8 @@ private:
     struct SmdState;
 
     void start(std::span<const float> y, std::span<float> statistic);
-    Continued advance(std::span<const float> y, std::span<float> statistic);
+    std::vector<Continued> advance(std::span<const float> y, std::span<float> statistic,
+                                   std::span<const std::vector<Index>> inhibited = {});
     std::vector<Index> notCounted(std::span<const float> y) const;
     Continued continuedAt(const std::vector<Index> &places, std::span<const float> y) const;
     void regulate(double continuedFraction, double meanContinued);
@@ -75,10 +80,12 @@ private:
     ResetRule m_rule;
     Recursion<MaxPlus<float>> m_recursion;
     LargeVector<float> m_scores;
-    LargeVector<float> m_next; ///< scores being computed
+    LargeVector<float> m_next; ///< those before the last frames, and scores being computed
     double m_lnK;
     double m_offset = 0.0;
-    Index m_frames = 0; ///< number of frames taken; the step into frame n is step number n
+    Index m_frames = 0;            ///< number of frames taken; the step into frame n is step number n
+    Index m_framesBefore = 0;      ///< the same before the last ones …
+    Regulation m_regulationBefore; ///< … and their regulation
     std::vector<Index> m_inhibited;
     Regulation m_regulation;
 };

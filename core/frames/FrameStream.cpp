@@ -7,6 +7,16 @@ namespace faintline {
 namespace {
 
     constexpr std::size_t blockBytes = std::size_t(1) << 20;
+    /// What detectors take at once (Recursion::framesAtOnce), if memory allows.
+    constexpr std::size_t leastBlockFrames = 16;
+    constexpr std::size_t largestBlockBytes = leastBlockFrames * blockBytes;
+
+    Index blockFramesOf(Index cells)
+    {
+        const std::size_t frameBytes = sizeof(float) * std::size_t(std::max<Index>(1, cells));
+        const std::size_t atLeast = std::clamp<std::size_t>(largestBlockBytes / frameBytes, 1, leastBlockFrames);
+        return Index(std::max(blockBytes / frameBytes, atLeast));
+    }
 
 } // namespace
 
@@ -16,9 +26,8 @@ FrameStream::FrameStream(const NormalisedFrames &frames, bool readsAhead)
 }
 
 FrameStream::FrameStream(const NormalisedFrames &frames, bool readsAhead, Index first, Index end)
-    : m_frames(frames), m_readsAhead(readsAhead),
-      m_blockFrames(std::max<Index>(1, Index(blockBytes / sizeof(float)) / std::max<Index>(1, frames.grid().size()))),
-      m_position(first), m_end(end)
+    : m_frames(frames), m_readsAhead(readsAhead), m_blockFrames(blockFramesOf(frames.grid().size())), m_position(first),
+      m_end(end)
 {
     if (m_readsAhead && m_position < m_end)
         prefetch();

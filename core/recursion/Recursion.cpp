@@ -306,16 +306,19 @@ Index Recursion<Semiring>::framesAtOnce() const
 }
 
 template <class Semiring>
-Continued Recursion<Semiring>::advance(std::span<const float> scores, std::span<float> next, const FrameBlock &frames,
-                                       const Likelihood &likelihood,
-                                       const FrameJoin &join) requires std::same_as<Semiring, MaxPlus<float>>
+std::vector<Continued>
+Recursion<Semiring>::advance(std::span<const float> scores, std::span<float> next, const FrameBlock &frames,
+                             const Likelihood &likelihood,
+                             const FrameJoin &join) requires std::same_as<Semiring, MaxPlus<float>>
 {
     if constexpr (std::same_as<Semiring, MaxPlus<float>>) { // clang 14 instantiates it for others as well
         RunContext context;
         const Index work = std::ssize(frames.y) * m_planeCount;
         context.threads = int(std::clamp<Index>(work / stateFramesPerThread, 1, m_threads));
         const Passage passage{scores, next, frames, likelihood, join};
-        return std::ssize(frames.y) > m_planeSize ? m_slanted->advance(passage, context) : advanceOne(passage, context);
+        if (std::ssize(frames.y) > m_planeSize)
+            return m_slanted->advance(passage, context);
+        return {advanceOne(passage, context)};
     } else {
         return {};
     }

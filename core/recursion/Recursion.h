@@ -66,10 +66,10 @@ public:
 
     /// Computes M and joins it with frames at once: u = λ + max(M + ln K, floor), D = max over rates. Reads `scores`
     /// and writes `next`, which must not overlap, for up to `framesAtOnce()` frames. Any division into calls and any
-    /// number of threads gives the same bytes. Returns what continued in the last frame.
-    Continued advance(std::span<const float> scores, std::span<float> next, const FrameBlock &frames,
-                      const Likelihood &likelihood,
-                      const FrameJoin &join) requires std::same_as<Semiring, MaxPlus<float>>;
+    /// number of threads gives the same bytes. Returns what continued in each frame; of several frames without sums.
+    std::vector<Continued> advance(std::span<const float> scores, std::span<float> next, const FrameBlock &frames,
+                                   const Likelihood &likelihood,
+                                   const FrameJoin &join) requires std::same_as<Semiring, MaxPlus<float>>;
     Index framesAtOnce() const;
 
     /// For `advance`.

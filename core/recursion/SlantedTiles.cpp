@@ -32,7 +32,7 @@ struct SlantedTiles::ThreadShare {
     Index end;
     Index low;
     Index high;
-    Continued continued{};
+    std::vector<Continued> continued{}; ///< in each frame, without sums
 };
 
 /// One frame's part of a tile: its cells begin at `begin`; those within the stretch are from … end-1.
@@ -67,7 +67,7 @@ bool SlantedTiles::areWorthwhile() const
     return m_tileCells >= worthwhileTileCells;
 }
 
-Continued SlantedTiles::advance(const Passage &passage, const RunContext &context)
+std::vector<Continued> SlantedTiles::advance(const Passage &passage, const RunContext &context)
 {
     const Work work{passage, std::ssize(passage.frames.y) / m_cells};
     const Index overlap = (work.frameCount - 1) * m_reach;
@@ -75,15 +75,17 @@ Continued SlantedTiles::advance(const Passage &passage, const RunContext &contex
     for (Index i = 0; i < context.threads; ++i) {
         const Index from = i * m_cells / context.threads;
         const Index end = (i + 1) * m_cells / context.threads;
-        stretches.push_back({from, end, std::max<Index>(0, from - overlap), std::min(m_cells, end + overlap)});
+        stretches.push_back({from, end, std::max<Index>(0, from - overlap), std::min(m_cells, end + overlap),
+                             std::vector<Continued>(std::size_t(work.frameCount))});
     }
     m_scratch.resize(std::max(m_scratch.size(), stretches.size()));
     parallelFor(std::ssize(stretches), context, "recursion", [&] {
         return [&](Index i) { goThrough(work, stretches[std::size_t(i)], m_scratch[std::size_t(i)]); };
     });
-    Continued all;
+    std::vector<Continued> all(std::size_t(work.frameCount));
     for (const ThreadShare &stretch : stretches)
-        all.count += stretch.continued.count;
+        for (std::size_t frame = 0; frame < all.size(); ++frame)
+            all[frame].count += stretch.continued[frame].count;
     return all;
 }
 
@@ -205,7 +207,6 @@ void SlantedTiles::joinFrame(const Work &work, const TargetList &list, const Til
     const bool isLast = work.isLast(frame);
     FrameJoin join = work.join;
     join.isFresh = true;
-    join.counting = isLast ? join.counting : Counting::Nothing;
     work.likelihood.apply(work.frames.y.subspan(std::size_t(frame * m_cells + from), std::size_t(end - from)),
                           own.lambda);
     // Cells outside the stretch are counted and output by the neighbour.
@@ -218,10 +219,35 @@ void SlantedTiles::joinFrame(const Work &work, const TargetList &list, const Til
             continue;
         listAhead(work, frame, first, n, own.ahead);
         join.ahead = own.ahead;
+        join.counting = isOwn ? work.join.counting : Counting::Nothing;
         float *const statistic = isOwn ? work.frames.statistic.data() + frame * m_cells + first : own.unused.data();
-        s.continued.count += finishMax(list.targets, {n, first - begin, isLast ? first : first - begin},
-                                       own.lambda.data() + (first - from), join, statistic)
-                                 .count;
+        s.continued[std::size_t(frame)].count +=
+            finishMax(list.targets, {n, first - begin, isLast ? first : first - begin},
+                      own.lambda.data() + (first - from), join, statistic)
+                .count;
+    }
+    if (!work.frames.inhibited.empty())
+        inhibit(work, list, part, s, own.lambda);
+}
+
+/// Leaves inhibited cells out of what continued in this part of a frame, and forgets them for the next one.
+void SlantedTiles::inhibit(const Work &work, const TargetList &list, const TileFrame &part, ThreadShare &s,
+                           std::span<const float> lambda) const
+{
+    const auto [frame, begin, from, end] = part;
+    const bool isLast = work.isLast(frame);
+    const std::vector<Index> &cells = work.frames.inhibited[std::size_t(frame)];
+    for (auto at = std::ranges::lower_bound(cells, from); at != cells.end() && *at < end; ++at) {
+        const bool isOwn = *at >= s.from && *at < s.end;
+        if (isLast && !isOwn)
+            continue;
+        for (const TargetPlane &target : list.targets) {
+            float &score = target.to[isLast ? *at : *at - begin];
+            if (isOwn && score > lambda[std::size_t(*at - from)])
+                --s.continued[std::size_t(frame)].count;
+            if (!isLast)
+                score = std::min(score, 0.0f);
+        }
     }
 }
 

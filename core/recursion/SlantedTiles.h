@@ -14,6 +14,9 @@ struct FrameBlock {
     std::span<const float> y;
     std::span<float> statistic; ///< D of each frame and cell
     Index firstStep = 0;        ///< number of the step into the first frame
+    /// Of each of several frames the cells, ascending, that do not count in what continued and are forgotten before the
+    /// next frame: their scores are at most 0 then. Empty: none in any frame.
+    std::span<const std::vector<Index>> inhibited{};
 };
 
 /// Parameters of the recursion over some frames. `scores` before the first and `next` after the last must not overlap.
@@ -54,8 +57,8 @@ public:
     /// Whether two frames of a tile fit into the cache.
     bool areWorthwhile() const;
 
-    /// u = λ + max(M + ln K, floor) for all frames of the passage; returns what continued in the last frame.
-    Continued advance(const Passage &passage, const RunContext &context);
+    /// u = λ + max(M + ln K, floor) for all frames of the passage; returns what continued in each, without sums.
+    std::vector<Continued> advance(const Passage &passage, const RunContext &context);
 
 private:
     /// Scratch memory of one thread.
@@ -80,6 +83,8 @@ private:
     void fillOutside(const TileFrame &part, const float *halo, float *window) const;
     void joinFrame(const Work &work, const TargetList &list, const TileFrame &part, ThreadShare &stretch,
                    Scratch &scratch) const;
+    void inhibit(const Work &work, const TargetList &list, const TileFrame &part, ThreadShare &stretch,
+                 std::span<const float> lambda) const;
 
     Index m_cells;
     std::vector<Targets> m_phases;

@@ -179,7 +179,7 @@ namespace {
         detector->useThreads(context.threads);
         const auto chain = makeChain(analysis, std::move(detector));
         std::vector<float> floor(static_cast<std::size_t>(cells));
-        std::vector<float> statistic(floor.size());
+        std::vector<float> statistic;
         FrameStream stream(frames, context.threads > 1, std::max<Index>(0, stretch.first) / phases * phases,
                            std::min(frameCount, stretch.last + 1));
         for (std::vector<float> block = stream.next(); !block.empty(); block = stream.next()) {
@@ -191,8 +191,9 @@ namespace {
                 for (std::size_t cell = 0; cell < floor.size(); ++cell)
                     y[cell] /= floor[cell];
                 explanations.hide(first + i, 0, y, hidden);
-                chain->update(first + i, y, statistic);
             }
+            statistic.resize(block.size());
+            chain->updateAll(first, block, statistic);
         }
         chain->finish();
         return chain->takeJoinedTracks();

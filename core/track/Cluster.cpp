@@ -11,7 +11,7 @@ namespace faintline {
 namespace {
 
     FAINTLINE_MULTIVERSION
-    bool anyAbove(const float *values, std::size_t n, float limit)
+    bool exceeds(const float *values, std::size_t n, float limit)
     {
         int above = 0;
         for (std::size_t i = 0; i < n; ++i)
@@ -19,18 +19,18 @@ namespace {
         return above != 0;
     }
 
-    bool anyAbove(std::span<const float> values, float limit)
-    {
-        return anyAbove(values.data(), values.size(), limit);
-    }
-
 } // namespace
+
+bool anyAbove(std::span<const float> statistic, double threshold)
+{
+    return exceeds(statistic.data(), statistic.size(), float(threshold));
+}
 
 std::vector<Cluster> findClusters(const Grid &grid, std::span<const float> statistic, double threshold, double shoulder,
                                   const std::vector<Index> &linkCells)
 {
     std::vector<Index> crossings;
-    if (!anyAbove(statistic, float(threshold)))
+    if (!anyAbove(statistic, threshold))
         return {};
     const auto limit = float(std::min(threshold, shoulder));
     for (Index cell = 0; cell < std::ssize(statistic); ++cell)

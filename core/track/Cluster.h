@@ -15,6 +15,9 @@ struct Cluster {
     std::vector<Index> cells; ///< flat indices, ascending
 };
 
+/// Whether any value of a statistic exceeds a threshold, as a cluster's peak must.
+bool anyAbove(std::span<const float> statistic, double threshold);
+
 /// Groups the cells whose statistic exceeds `shoulder`: two belong together if they lie within `linkCells` of each
 /// other along each axis (one number per axis), or are linked through others. Only clusters whose peak exceeds
 /// `threshold` ≥ `shoulder` count; the cells between the two values are the flanks of the excursion. Exceeding is

@@ -34,11 +34,7 @@ void DetectionChain::update(Index frame, std::span<const float> y, std::span<flo
         m_detector->update(y, statistic);
         return;
     }
-    // Cells that the last frame's tracks took over are forgotten only now, so that between frames the scores are those
-    // displayed.
-    if (m_settings.resets)
-        for (const CellBox &box : forgottenBoxes())
-            m_detector->forget(m_grid, box);
+    forgetBoxes();
     updateTrackers(frame, y);
 
     RecentFrames::Seen seen;
@@ -48,12 +44,9 @@ void DetectionChain::update(Index frame, std::span<const float> y, std::span<flo
         m_boxes.push_back(boxRound(tracker.coordinates(), y));
         m_boxTracks.push_back(tracker.track().id);
     }
-    for (const std::vector<Index> &place : m_settings.excluded) {
-        m_boxes.push_back(boxRound(place, y, constantLeakageFactor));
-        m_boxTracks.push_back(0);
-    }
+    addExcluded(y);
     const std::size_t leftAlone = m_settings.inhibits ? 0 : m_excursions + m_trackers.size();
-    keepFromDetector(std::span(m_boxes).subspan(leftAlone), seen.y);
+    m_detector->inhibit(inhibit(std::span(m_boxes).subspan(leftAlone), seen.y));
     m_detector->update(seen.y, statistic);
     for (std::size_t i = 0; i < m_detector->modelCount(); ++i)
         seen.lnK.push_back(m_detector->regulation(i).stepLnK);
@@ -69,6 +62,85 @@ void DetectionChain::update(Index frame, std::span<const float> y, std::span<flo
         return showStatistic(y, statistic);
     for (const HmmTracker &tracker : m_trackers)
         tracker.paint(statistic);
+}
+
+Index DetectionChain::updateSome(Index frame, std::span<const float> y, std::span<float> statistic)
+{
+    const std::size_t cells = m_lambda.size();
+    const Index count = takenTogether(frame, y);
+    const std::size_t size = std::size_t(count) * cells;
+    if (count > 1 && advanceTogether(frame, y.first(size), statistic.first(size)))
+        return count;
+    update(frame, y.first(cells), statistic.first(cells));
+    m_regulations = {m_detector->regulation()};
+    return 1;
+}
+
+void DetectionChain::updateAll(Index frame, std::span<const float> y, std::span<float> statistic)
+{
+    while (!y.empty()) {
+        const Index taken = updateSome(frame, y, statistic);
+        frame += taken;
+        y = y.subspan(std::size_t(taken) * m_lambda.size());
+        statistic = statistic.subspan(std::size_t(taken) * m_lambda.size());
+    }
+}
+
+Index DetectionChain::takenTogether(Index frame, std::span<const float> y) const
+{
+    const bool isFollowing =
+        !m_trackers.empty() || std::ranges::any_of(m_boxTracks, [](int track) { return track > 0; });
+    const bool forgetsExcluded = m_settings.excluded.empty() || (m_settings.resets && m_settings.forgetCells.empty());
+    if (frame < m_singlyBefore || isFollowing || !forgetsExcluded || !m_settings.feedback || m_settings.trackThreshold)
+        return 1;
+    const Index count = std::min(m_recent.framesToScores(frame), std::ssize(y) / m_grid.size());
+    return m_detector->takenTogether(y.first(std::size_t(count * m_grid.size())));
+}
+
+/// Returns false, and leaves all as it was, if a track starts in one of the frames, on which those after it depend.
+bool DetectionChain::advanceTogether(Index frame, std::span<const float> y, std::span<float> statistic)
+{
+    forgetBoxes();
+    std::vector<float> taken(y.begin(), y.end());
+    std::vector<std::vector<Index>> inhibited;
+    std::vector<std::vector<CellBox>> boxes;
+    for (std::size_t at = 0; at < y.size(); at += m_lambda.size()) {
+        m_boxes.clear();
+        m_boxTracks.clear();
+        addExcluded(y.subspan(at, m_lambda.size()));
+        inhibited.push_back(inhibit(m_boxes, std::span(taken).subspan(at, m_lambda.size())));
+        boxes.push_back(m_boxes);
+    }
+    m_regulations = m_detector->updateTogether(taken, statistic, inhibited);
+    if (anyAbove(statistic, m_settings.threshold)) {
+        m_detector->takeBack();
+        m_boxes.clear(); // those before have been forgotten
+        m_boxTracks.clear();
+        m_singlyBefore = frame + std::ssize(m_regulations);
+        return false;
+    }
+    auto row = taken.begin();
+    for (std::size_t i = 0; i < boxes.size(); ++i, row += m_grid.size())
+        m_recent.add(frame + Index(i), {{row, row + m_grid.size()}, {m_regulations[i].stepLnK}, std::move(boxes[i])},
+                     *m_detector);
+    return true;
+}
+
+/// Cells that the last frame's tracks took over are forgotten only now, so that between frames the scores are those
+/// displayed.
+void DetectionChain::forgetBoxes()
+{
+    if (m_settings.resets)
+        for (const CellBox &box : forgottenBoxes())
+            m_detector->forget(m_grid, box);
+}
+
+void DetectionChain::addExcluded(std::span<const float> y)
+{
+    for (const std::vector<Index> &place : m_settings.excluded) {
+        m_boxes.push_back(boxRound(place, y, constantLeakageFactor));
+        m_boxTracks.push_back(0);
+    }
 }
 
 void DetectionChain::showStatistic(std::span<const float> y, std::span<float> statistic)
@@ -97,7 +169,8 @@ void DetectionChain::keepExcursions()
     m_newBoxes.clear();
 }
 
-void DetectionChain::keepFromDetector(std::span<const CellBox> boxes, std::vector<float> &y)
+/// Sets y to 0 in the boxes; returns their cells, ascending.
+std::vector<Index> DetectionChain::inhibit(std::span<const CellBox> boxes, std::span<float> y) const
 {
     std::vector<Index> cells;
     for (const CellBox &box : boxes)
@@ -107,7 +180,7 @@ void DetectionChain::keepFromDetector(std::span<const CellBox> boxes, std::vecto
         });
     std::sort(cells.begin(), cells.end());
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-    m_detector->inhibit(cells);
+    return cells;
 }
 
 std::vector<DetectionChain::Inhibition> DetectionChain::inhibitions() const

@@ -3,6 +3,7 @@
 #include "base/memoryShares.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace faintline {
 
@@ -61,6 +62,12 @@ void RecentFrames::keepScores(Index frame, const PathDetector &detector)
         checkpoint.scores[i].assign(scores.begin(), scores.end());
     }
     m_checkpoints.push_back(std::move(checkpoint));
+}
+
+Index RecentFrames::framesToScores(Index frame) const
+{
+    return m_checkpointLimit == 0 ? std::numeric_limits<Index>::max()
+                                  : 1 + (checkpointFrames - frame % checkpointFrames) % checkpointFrames;
 }
 
 void RecentFrames::clear()

@@ -27,6 +27,8 @@ public:
     /// Takes the frame after the last one, of which the detector has just made its scores.
     void add(Index frame, Seen seen, const PathDetector &detector);
     void clear();
+    /// Number of frames, from this one on, to the next of which add needs the scores.
+    Index framesToScores(Index frame) const;
 
     Seen &newest() { return m_seen.back(); }
     const Seen &at(Index frame) const { return m_seen[std::size_t(frame - m_first)]; }

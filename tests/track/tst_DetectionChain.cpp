@@ -88,6 +88,7 @@ private slots:
     void aStrongNeighbourIsNotStolen();
     void nothingIsSeenAtBlindPlaces();
     void noTrackWandersOntoABlindPlace();
+    void severalFramesAtOnceChangeNoBit();
     void noTrackWithoutFeedback();
     void statisticIsAboveThresholdWhileTracked();
     void lineOffTheGridEnds();
@@ -206,6 +207,57 @@ void tst_DetectionChain::noTrackWandersOntoABlindPlace()
     const auto tracks = run({64, 400, lines}, chain, line64);
     QCOMPARE(tracks.size(), std::size_t(1));
     QVERIFY(tracks[0].endFrame < 180);
+}
+
+void tst_DetectionChain::severalFramesAtOnceChangeNoBit()
+{
+    // Quiet, then a line, then quiet again, with a blind place and two frames in which a cell was not observed.
+    const Index cells = 700;
+    const Index frames = 220;
+    const Grid grid{{{"frequency", "Hz", 0.0, 1.0, cells, false}}};
+    const Scene scene{cells, frames, {[](Index t) { return t >= 101 && t < 150 ? Index(300) : Index(-1); }}};
+    const MarkovModel m = model(cells);
+    ChainSettings chainSettings = settings(grid, 15.0);
+    chainSettings.excluded = {{0}, {cells - 1}};
+    const auto chain = [&] {
+        return DetectionChain(m, grid, std::make_unique<Smd>(m, ResetRule{ResetLaw::Fixed, -0.9}), chainSettings);
+    };
+    Random random(12, 1);
+    std::vector<float> y;
+    for (Index t = 0; t < frames; ++t)
+        std::ranges::copy(scene.frame(t, random), std::back_inserter(y));
+    y[std::size_t(70 * cells + 400)] = y[std::size_t(71 * cells + 400)] = std::numeric_limits<float>::quiet_NaN();
+
+    DetectionChain singly = chain();
+    std::vector<float> expected(y.size());
+    std::vector<double> continued;
+    for (Index t = 0; t < frames; ++t) {
+        singly.update(t, std::span(y).subspan(std::size_t(t * cells), std::size_t(cells)),
+                      std::span(expected).subspan(std::size_t(t * cells), std::size_t(cells)));
+        continued.push_back(singly.detector().regulation().continuedFraction);
+    }
+    DetectionChain together = chain();
+    std::vector<float> found(y.size());
+    std::vector<double> regulated;
+    Index most = 0;
+    for (Index t = 0; t < frames;) {
+        const auto from = std::size_t(t * cells);
+        const Index taken = together.updateSome(t, std::span(y).subspan(from), std::span(found).subspan(from));
+        for (const PathDetector::Regulation &regulation : together.regulations())
+            regulated.push_back(regulation.continuedFraction);
+        most = std::max(most, taken);
+        t += taken;
+    }
+    QCOMPARE(most, Index(16));
+    QVERIFY(found == expected);
+    QVERIFY(regulated == continued);
+    QCOMPARE(together.inhibitions().size(), singly.inhibitions().size());
+    singly.finish();
+    together.finish();
+    QCOMPARE(together.tracks().size(), std::size_t(1));
+    QCOMPARE(together.tracks().front().onsetFrame, singly.tracks().front().onsetFrame);
+    QCOMPARE(together.tracks().front().detectFrame, singly.tracks().front().detectFrame);
+    QCOMPARE(together.tracks().front().endFrame, singly.tracks().front().endFrame);
 }
 
 void tst_DetectionChain::noTrackWithoutFeedback()
