@@ -2,7 +2,6 @@
 
 #include "app/base/StartColumn.h"
 #include "app/base/filePath.h"
-#include "app/base/screenSizes.h"
 #include "app/base/writeAndReport.h"
 #include "app/document/OutputLayers.h"
 #include "app/document/scanScenario.h"
@@ -10,8 +9,6 @@
 #include "app/features/evaluate/ExperimentsPanel.h"
 #include "app/features/pictures/PingBench.h"
 #include "app/features/pictures/Workbench.h"
-#include "app/features/sequential/SequentialControls.h"
-#include "app/features/sequential/SequentialPanel.h"
 #include "app/features/settings/PipelinePanel.h"
 #include "app/lessons/LessonPanel.h"
 #include "app/lessons/PointerFrame.h"
@@ -32,11 +29,7 @@
 #include <QFileInfo>
 #include <QKeyEvent>
 #include <QMainWindow>
-#include <QScreen>
-#include <QTabWidget>
 #include <QUrl>
-
-#include <qwt_plot.h>
 
 #include <algorithm>
 #include <utility>
@@ -46,9 +39,6 @@ namespace faintline {
 namespace {
 
     constexpr int watchMs = 150;
-
-    /// Words a shown lesson's panel has room for, as a share of the window.
-    constexpr int panelPercent = 22;
 
     double nowUnixSeconds()
     {
@@ -65,18 +55,13 @@ namespace {
 } // namespace
 
 LessonGuide::LessonGuide(QMainWindow &window, WindowParts &parts)
-    : QObject(&window), m_window(window), m_parts(parts), m_dock(new QDockWidget(tr("Lesson"), &window)),
-      m_panel(new LessonPanel), m_frame(new PointerFrame(&window))
+    : QObject(&window), m_window(window), m_parts(parts), m_panel(new LessonPanel), m_layout(window, parts, *m_panel),
+      m_frame(new PointerFrame(&window))
 {
-    m_dock->setObjectName(QStringLiteral("lessonDock"));
-    m_dock->setWidget(m_panel);
-    m_dock->setFeatures(QDockWidget::DockWidgetMovable
-                        | QDockWidget::DockWidgetFloatable); // a lesson is left with its button
-    m_dock->hide();
     // Layouts are restored from when a lesson was running.
-    connect(m_dock, &QDockWidget::visibilityChanged, this, [this](bool isVisible) {
+    connect(dock(), &QDockWidget::visibilityChanged, this, [this](bool isVisible) {
         if (isVisible && !isRunning())
-            QMetaObject::invokeMethod(m_dock, &QWidget::hide, Qt::QueuedConnection);
+            QMetaObject::invokeMethod(dock(), &QWidget::hide, Qt::QueuedConnection);
     });
     m_watch.setInterval(watchMs);
     connect(&m_watch, &QTimer::timeout, this, &LessonGuide::check);
@@ -263,17 +248,17 @@ void LessonGuide::check()
     const bool isOfScans = isScanScenario(m_opened);
     const bool isShown = isOfScans || isOpen(m_opened);
     if (isShown && m_parts.bench().isVisible())
-        showPanel(); // its text can be read while the detector runs
+        m_layout.showDock(isOfScans); // its text can be read while the detector runs
     if (isBusy())
         return;
     if (!isShown)
         return leave(); // another document is open now
-    showPanel();
+    m_layout.showDock(isOfScans);
     if (m_isAtEnd)
         return;
     if (!m_isReady && !std::exchange(m_isRevealed, true)) {
         showExperiment();
-        return reveal(widgetNamed(now().point));
+        return LessonLayout::reveal(widgetNamed(now().point));
     }
     if (!m_isReady) {
         arrange();
@@ -292,8 +277,6 @@ void LessonGuide::check()
 void LessonGuide::arrange()
 {
     const LessonStep &step = now();
-    for (const QString &name : step.show)
-        reveal(widgetNamed(name));
     Viewport &viewport = m_parts.document().viewport();
     if (step.showsAll)
         viewport.showAll();
@@ -303,12 +286,21 @@ void LessonGuide::arrange()
     if (step.cursorSeconds || step.cursorRange || step.cursorBearing)
         m_parts.bench().setPlace({step.cursorSeconds, step.cursorHz, step.cursorRange, step.cursorBearing});
     m_parts.workbench().setRegulationFirst(step.point == QLatin1String("regulation"));
-    QWidget *target = widgetNamed(step.point);
-    pointOut(target);
-    m_frame->pointAt(target);
+    m_frame->pointAt(pointOut());
     giveKeys();
-    if (m_isPresenting)
+    if (m_layout.isPresenting())
         keepInSight();
+}
+
+/// Brings the parts that the step needs to the front, and returns the one to which it points.
+QWidget *LessonGuide::pointOut()
+{
+    QList<QWidget *> others;
+    for (const QString &name : now().show)
+        others << widgetNamed(name);
+    QWidget *target = widgetNamed(now().point);
+    m_layout.pointOut(target, others, !now().task.isEmpty());
+    return target;
 }
 
 /// To a question that is still open: a field that is pointed to would take its number keys.
@@ -324,25 +316,10 @@ void LessonGuide::keepInSight()
     constexpr int laidOutMs = 250;
     QTimer::singleShot(laidOutMs, this, [this] {
         if (isRunning() && m_isReady && !m_isAtEnd) {
-            widenChart(widgetNamed(now().point));
-            shareColumn(); // now that the width of its text is known
+            m_layout.fit(widgetNamed(now().point)); // now that the width of its text is known
             m_frame->follow();
         }
     });
-}
-
-/// Raises it among its tabs.
-void LessonGuide::reveal(QWidget *widget)
-{
-    for (QWidget *each = widget; each; each = each->parentWidget()) {
-        auto *above = each->parentWidget() ? qobject_cast<QTabWidget *>(each->parentWidget()->parentWidget()) : nullptr;
-        if (above && above->indexOf(each) >= 0)
-            above->setCurrentWidget(each);
-        if (auto *dock = qobject_cast<QDockWidget *>(each)) {
-            dock->show();
-            dock->raise();
-        }
-    }
 }
 
 QWidget *LessonGuide::widgetNamed(const QString &name)
@@ -355,7 +332,7 @@ QWidget *LessonGuide::widgetNamed(const QString &name)
         QWidget *editor = form->editor(setting);
         if (!editor)
             return nullptr;
-        reveal(form);
+        LessonLayout::reveal(form);
         form->reveal(setting);
         giveKeys();
         return editor->parentWidget();
@@ -373,126 +350,15 @@ QWidget *LessonGuide::widgetNamed(const QString &name)
     return m_parts.views().named(name);
 }
 
-/// At the left; at the right of a panel that has the place of the pictures, in its area, since without pictures Qt gives
-/// a column of its own the room that the panel needs.
-void LessonGuide::showPanel()
-{
-    const bool isAlone = isScanScenario(m_opened) && !m_parts.bench().isVisible();
-    if (std::exchange(m_isAlone, isAlone) == isAlone && !m_dock->isHidden())
-        return;
-    m_window.addDockWidget(isAlone ? Qt::BottomDockWidgetArea : Qt::LeftDockWidgetArea, m_dock,
-                           isAlone ? Qt::Horizontal : Qt::Vertical);
-    auto *below = m_window.findChild<QDockWidget *>(QStringLiteral("pipelineDock"));
-    if (below && !isAlone && m_window.dockWidgetArea(below) == Qt::LeftDockWidgetArea) {
-        m_window.splitDockWidget(m_dock, below, Qt::Vertical);
-        m_dock->show();
-        if (!below->isHidden())
-            m_window.resizeDocks({m_dock, below}, {7, 3}, Qt::Vertical);
-    }
-    m_dock->show();
-    m_window.resizeDocks({m_dock}, {m_window.width() * panelPercent / 100}, Qt::Horizontal);
-}
-
-/// In a presentation the text is larger, and only the panels that the step needs are visible.
 void LessonGuide::present(bool isPresenting)
 {
-    m_panel->setLarge(isPresenting);
-    m_isPresenting = isPresenting;
-    if (!isPresenting)
-        setFormsVisible(true);
+    m_layout.setPresenting(isPresenting);
     // At its end, too: the layout before it may have had other panels in front.
     if (isRunning() && m_isReady && !m_isAtEnd) {
-        for (const QString &name : now().show)
-            reveal(widgetNamed(name));
-        pointOut(widgetNamed(now().point));
+        pointOut();
         m_frame->follow();
         keepInSight();
     }
-}
-
-/// In a presentation: half of the height for a sheet below the pictures; of the column, two thirds for the lesson, half
-/// above a chart, and more if its step needs that, as long as the other panel can be used.
-void LessonGuide::shareColumn()
-{
-    constexpr int leastBelow = 200;
-    const auto docks = m_window.findChildren<QDockWidget *>(Qt::FindDirectChildrenOnly);
-    for (QDockWidget *dock : docks)
-        if (m_isPresenting && m_parts.bench().isVisible() && !dock->isHidden() && !dock->isFloating()
-            && m_window.dockWidgetArea(dock) == Qt::BottomDockWidgetArea)
-            m_window.resizeDocks({dock}, {m_window.height() / 2}, Qt::Vertical);
-    const auto below = std::ranges::find_if(docks, [this](QDockWidget *dock) {
-        return dock != m_dock && !dock->isHidden() && !dock->isFloating()
-               && m_window.dockWidgetArea(m_dock) == m_window.dockWidgetArea(dock);
-    });
-    if (!m_isPresenting || below == docks.end())
-        return;
-    const int height = m_dock->height() + (*below)->height();
-    const int least = (*below)->findChild<QwtPlot *>() ? height / 2 : height * 2 / 3;
-    const int titleBar = m_dock->height() - m_panel->height();
-    const int lesson = std::clamp(m_panel->presentedHeight() + titleBar, least, std::max(least, height - leastBelow));
-    m_window.resizeDocks({m_dock, *below}, {lesson, height - lesson}, Qt::Vertical);
-}
-
-/// In a presentation, a chart in a column beside the lesson's gets the same width.
-void LessonGuide::widenChart(QWidget *target)
-{
-    for (auto *dock : m_window.findChildren<QDockWidget *>(Qt::FindDirectChildrenOnly))
-        if (m_isPresenting && target && dock->isAncestorOf(target) && dock->findChild<QwtPlot *>()
-            && m_window.dockWidgetArea(dock) == Qt::RightDockWidgetArea
-            && m_window.dockWidgetArea(m_dock) == Qt::LeftDockWidgetArea)
-            m_window.resizeDocks({dock}, {m_window.width() * panelPercent / 100}, Qt::Horizontal);
-}
-
-/// Reveals what a step points to, in front of the step's other panels.
-void LessonGuide::pointOut(QWidget *target)
-{
-    putAway(target);
-    reveal(target);
-    takeOneColumn();
-    reveal(target);
-    widenChart(target);
-    shareColumn();
-}
-
-/// In a presentation: panels of earlier steps, and the forms of experiments where nothing is to be entered.
-void LessonGuide::putAway(const QWidget *target)
-{
-    QList<const QWidget *> needed{m_panel, target};
-    for (const QString &name : now().show)
-        needed << widgetNamed(name);
-    for (auto *dock : m_window.findChildren<QDockWidget *>(Qt::FindDirectChildrenOnly)) {
-        const auto isIn = [dock](const QWidget *widget) { return dock->isAncestorOf(widget); };
-        if (m_isPresenting && m_parts.bench().isVisible() && !dock->isFloating() && std::ranges::none_of(needed, isIn))
-            dock->hide();
-    }
-    setFormsVisible(!m_isPresenting || (!now().task.isEmpty() && !qobject_cast<const QwtPlot *>(target)));
-}
-
-/// Of experiments, beside their charts.
-void LessonGuide::setFormsVisible(bool isVisible)
-{
-    m_parts.panel<EvaluatePanel>().column().setVisible(isVisible);
-    m_parts.panel<SequentialPanel>().controls().setVisible(isVisible);
-}
-
-/// On a small screen a presented lesson stands at the right, above the panels of the step, which leaves the pictures
-/// their width. The end of the presentation restores the layout.
-void LessonGuide::takeOneColumn()
-{
-    const int width = std::max(m_window.width(), m_window.screen()->size().width()); // full screen comes later
-    if (!m_isPresenting || width >= twoColumnsFrom || !m_parts.bench().isVisible())
-        return;
-    QDockWidget *below = nullptr;
-    if (m_window.dockWidgetArea(m_dock) != Qt::RightDockWidgetArea)
-        m_window.addDockWidget(Qt::RightDockWidgetArea, m_dock, Qt::Vertical);
-    for (auto *dock : m_window.findChildren<QDockWidget *>(Qt::FindDirectChildrenOnly)) {
-        if (dock == m_dock || dock->isHidden() || dock->isFloating()
-            || m_window.dockWidgetArea(dock) == Qt::BottomDockWidgetArea)
-            continue;
-        below ? m_window.tabifyDockWidget(below, dock) : m_window.splitDockWidget(m_dock, dock, Qt::Vertical);
-        below = below ? below : dock;
-    }
-    m_window.resizeDocks({m_dock}, {width * panelPercent / 100}, Qt::Horizontal);
 }
 
 void LessonGuide::leave()
@@ -504,8 +370,8 @@ void LessonGuide::leave()
     m_opened.clear();
     m_watch.stop();
     m_frame->pointAt(nullptr);
-    m_dock->hide();
-    setFormsVisible(true);
+    dock()->hide();
+    m_layout.setFormsVisible(true);
     m_parts.workbench().setRegulationFirst(false);
     emit runningChanged(false);
 }

@@ -1,20 +1,15 @@
 #pragma once
 
 #include "app/lessons/LessonAnswers.h"
+#include "app/lessons/LessonLayout.h"
 #include "base/Error.h"
 
 #include <QMap>
 #include <QObject>
 #include <QTimer>
 
-class QDockWidget;
-class QMainWindow;
-class QWidget;
-
 namespace faintline {
 
-class LessonPanel;
-class WindowParts;
 class PointerFrame;
 
 /// Guides through a lesson: opens the source of a step, sets its settings as one undoable step, brings its views to the
@@ -38,7 +33,7 @@ public:
     /// Writes them as an HTML page. Throws Error.
     void writeAnswers(const QString &path, const QString &learner) const;
     LessonPanel &panel() { return *m_panel; }
-    QDockWidget *dock() { return m_dock; }
+    QDockWidget *dock() const { return m_layout.dock(); }
     PointerFrame &frame() { return *m_frame; }
 
     /// The widget with a name used in lessons; null if there is none.
@@ -76,14 +71,7 @@ private:
     void arrange();
     void giveKeys();
     void keepInSight();
-    void showPanel();
-    void pointOut(QWidget *target);
-    void takeOneColumn();
-    void shareColumn();
-    void widenChart(QWidget *target);
-    void putAway(const QWidget *target);
-    void setFormsVisible(bool isVisible);
-    void reveal(QWidget *widget);
+    QWidget *pointOut();
     bool isBusy() const;
 
     QMainWindow &m_window;
@@ -91,15 +79,13 @@ private:
     Lesson m_lesson;
     LessonAnswers m_answers;
     int m_step = -1;
-    bool m_isPresenting = false;
-    bool m_isAlone = false; ///< beside a panel that has the place of the pictures
     bool m_isAtEnd = false;
     QString m_opened;                 ///< opened by this lesson, and still open
     QMap<QString, int> m_experiments; ///< started by this lesson: ids by path
     bool m_isReady = false;
     bool m_isRevealed = false; ///< whether the highlighted widget was revealed before it is framed
-    QDockWidget *m_dock;
     LessonPanel *m_panel;
+    LessonLayout m_layout;
     PointerFrame *m_frame;
     QTimer m_watch;
 };
