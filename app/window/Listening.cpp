@@ -5,6 +5,7 @@
 #include "app/document/sourceAt.h"
 #include "app/features/live/ListenDialog.h"
 #include "app/features/live/LiveBar.h"
+#include "app/features/pictures/LivePictures.h"
 #include "app/features/pictures/Playback.h"
 #include "app/features/pictures/Workbench.h"
 #include "app/views/WindowParts.h"
@@ -54,7 +55,7 @@ Listening::~Listening() = default;
 
 void Listening::setPlayback(Playback &playback)
 {
-    connect(&m_parts.workbench(), &Workbench::livePainted, m_bar, &LiveBar::setDelay);
+    connect(&m_parts.workbench().live(), &LivePictures::painted, m_bar, &LiveBar::setDelay);
     connect(m_bar, &LiveBar::hearingRequested, this, [this, &playback](bool isWanted) {
         if (!isWanted)
             playback.stop();

@@ -1,17 +1,19 @@
-// The workbench during a live run.
+#include "app/features/pictures/LivePictures.h"
 
 #include "app/document/statisticUnit.h"
 #include "app/features/pictures/Closeup.h"
-#include "app/features/pictures/Workbench.h"
 #include "widgets/base/quantities.h"
 #include "widgets/base/settingWords.h"
 #include "widgets/plot/StripPlot.h"
+#include "widgets/waterfall/WaterfallView.h"
 
 #include <QEvent>
 #include <QTimer>
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
+#include <utility>
 
 namespace faintline {
 
@@ -22,41 +24,55 @@ namespace {
 
 } // namespace
 
-/// Shows the newest live frames. Colours are chosen again whenever the frames to choose from have doubled.
-void Workbench::showLive()
+LivePictures::LivePictures(Document &document, WaterfallView &input, WaterfallView &output, StripPlot &statistic,
+                           QObject *parent)
+    : QObject(parent), m_document(document), m_input(input), m_output(output), m_statistic(statistic)
+{
+    output.canvas()->installEventFilter(this);
+}
+
+void LivePictures::clear()
+{
+    m_plan.reset();
+    for (WaterfallView *view : {&m_input, &m_output}) {
+        view->setStartUnixSeconds({});
+        view->setTimes({});
+    }
+    m_statistic.setStartUnixSeconds({});
+}
+
+/// Colours are chosen again whenever the frames to choose from have doubled.
+void LivePictures::show(const Closeup &closeup)
 {
     const LiveView &live = m_document.live();
     const Axis &frequency = live.plan->grid().axes.back();
-    const bool isFirst = !m_livePlan || m_livePlan->frames != live.plan->frames;
-    const bool isChanged = m_livePlan != live.plan;
-    m_livePlan = live.plan;
-    if (isFirst || (live.time.count >= 2 * m_colouredFrames && live.time.count <= longestColouring)) {
+    const bool isFirst = !m_plan;
+    const bool isOther = isFirst || m_plan->frames != live.plan->frames;
+    const bool isChanged = m_plan != live.plan;
+    m_plan = live.plan;
+    if (isOther || (live.time.count >= 2 * m_colouredFrames && live.time.count <= longestColouring)) {
         m_colouredFrames = live.time.count;
-        m_input->setHeading(inputHeading(false));
-        m_input->setPicture(live.input, frequency);
-        m_output->setPicture(live.statistic, frequency);
-        m_statistic->setEmptySentence(tr("Click a picture to plot D at that frequency over time."));
+        m_input.setPicture(live.input, frequency);
+        m_output.setPicture(live.statistic, frequency);
+        m_statistic.setEmptySentence(tr("Click a picture to plot D at that frequency over time."));
     }
-    const auto lookedBack = m_closeup->lookedBackAt(*m_input);
-    m_input->setGrownPicture(live.input, lookedBack ? lookedBack : live.newInput);
-    const auto lookedBackOut = m_closeup->lookedBackAt(*m_output);
-    m_output->setGrownPicture(live.statistic, lookedBackOut ? lookedBackOut : live.newStatistic);
-    growExtents(live);
-    showLiveTracks();
+    const auto lookedBack = closeup.lookedBackAt(m_input);
+    m_input.setGrownPicture(live.input, lookedBack ? lookedBack : live.newInput);
+    const auto lookedBackOut = closeup.lookedBackAt(m_output);
+    m_output.setGrownPicture(live.statistic, lookedBackOut ? lookedBackOut : live.newStatistic);
+    growExtents(isFirst);
+    showTracks();
     if (isChanged) {
-        for (WaterfallView *view : {m_input, m_output})
+        for (WaterfallView *view : {&m_input, &m_output})
             view->setStartUnixSeconds(live.plan->recording->info().startUnixSeconds);
-        m_statistic->setStartUnixSeconds(live.plan->recording->info().startUnixSeconds);
+        m_statistic.setStartUnixSeconds(live.plan->recording->info().startUnixSeconds);
         markChanges();
-        showHeading();
-        showWhatFits();
-        showOrigin();
+        emit planChanged();
     }
     m_isToBePainted = true;
 }
 
-/// Updated a few times a second while there is a cursor.
-bool Workbench::isStripDue()
+bool LivePictures::isStripDue()
 {
     constexpr qint64 stripMs = 200;
     if (!m_document.viewport().cursor() || (m_stripAge.isValid() && m_stripAge.elapsed() < stripMs))
@@ -66,7 +82,7 @@ bool Workbench::isStripDue()
 }
 
 /// Only the visible ones, of possibly a day's.
-void Workbench::showLiveTracks()
+void LivePictures::showTracks()
 {
     const LiveView &live = m_document.live();
     const Axis &time = live.plan->time();
@@ -81,21 +97,21 @@ void Workbench::showLiveTracks()
         return isInSight(time.value(double(track->points.front().frame)),
                          time.value(double(track->points.back().frame)));
     });
-    for (WaterfallView *view : {m_input, m_output})
+    for (WaterfallView *view : {&m_input, &m_output})
         view->setLiveTracks(events, tracks, time);
 }
 
 /// Initially leaves room for some frames, which then fill it.
-void Workbench::growExtents(const LiveView &live)
+void LivePictures::growExtents(bool isFirst)
 {
+    const LiveView &live = m_document.live();
     const Viewport::Box full = WaterfallView::extents(live.time, live.plan->grid().axes.back());
     const Index frames = std::min(framesInSight, LiveHistory::singleFrames(live.input->cells()));
     const double width = double(frames) * live.time.step;
     const Span time{full.time.low, std::max(full.time.high, full.time.low + width)};
     Viewport &viewport = m_document.viewport();
-    if (!m_isFirstPicture && full.frequency == viewport.extents().frequency)
+    if (!isFirst && full.frequency == viewport.extents().frequency)
         return viewport.grow(time);
-    m_isFirstPicture = false;
     constexpr double fewestCells = 8.0;
     viewport.setExtents(time, full.frequency, fewestCells * live.time.step,
                         fewestCells * live.plan->grid().axes.back().step);
@@ -103,7 +119,7 @@ void Workbench::growExtents(const LiveView &live)
     viewport.setFollowing(true);
 }
 
-void Workbench::markChanges()
+void LivePictures::markChanges()
 {
     std::vector<OverlayTime> times;
     for (const SettingsChange &change : m_document.live().changes) {
@@ -119,17 +135,17 @@ void Workbench::markChanges()
         times.push_back({change.seconds, isThreshold ? tr("threshold %1 %2").arg(numberText(change.threshold, 1), unit)
                                                      : tr("changed: %1").arg(names.join(QStringLiteral(", ")))});
     }
-    for (WaterfallView *view : {m_input, m_output})
+    for (WaterfallView *view : {&m_input, &m_output})
         view->setTimes(times);
 }
 
-bool Workbench::eventFilter(QObject *watched, QEvent *event)
+bool LivePictures::eventFilter(QObject *watched, QEvent *event)
 {
     if (event->type() == QEvent::Paint && std::exchange(m_isToBePainted, false))
         QTimer::singleShot(0, this, [this, heardAt = m_document.live().heardAt] { // after both are painted
-            emit livePainted(std::chrono::duration<double>(std::chrono::steady_clock::now() - heardAt).count());
+            emit painted(std::chrono::duration<double>(std::chrono::steady_clock::now() - heardAt).count());
         });
-    return Bench::eventFilter(watched, event);
+    return QObject::eventFilter(watched, event);
 }
 
 } // namespace faintline

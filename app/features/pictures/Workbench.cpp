@@ -3,6 +3,7 @@
 #include "app/document/OutputLayers.h"
 #include "app/document/trackBox.h"
 #include "app/features/pictures/Closeup.h"
+#include "app/features/pictures/LivePictures.h"
 #include "app/features/pictures/PlainInput.h"
 #include "app/features/pictures/RegulationPlot.h"
 #include "app/features/pictures/measureBox.h"
@@ -77,7 +78,7 @@ Workbench::Workbench(Document &document, QWidget *parent)
       m_output(new WaterfallView(tr("Statistic D (nat)"), &document.display(), &document.direction())),
       m_layers(new OutputLayers(document, *m_output, this)), m_inputPane(ColourBar::pane(m_input)),
       m_outputPane(ColourBar::pane(m_output)), m_statistic(new StripPlot(tr("D (nat)"))),
-      m_regulation(new RegulationPlot)
+      m_regulation(new RegulationPlot), m_live(new LivePictures(document, *m_input, *m_output, *m_statistic, this))
 {
     m_input->setObjectName(QStringLiteral("input"));
     m_output->setObjectName(QStringLiteral("output"));
@@ -92,23 +93,23 @@ Workbench::Workbench(Document &document, QWidget *parent)
 
     connect(&document, &Document::opened, this, [this] {
         m_isFirstPicture = true;
-        m_livePlan.reset();
+        m_live->clear();
         m_input->setPlain(false);
-        for (WaterfallView *view : {m_input, m_output}) {
-            view->setStartUnixSeconds({});
-            view->setTimes({});
-        }
-        m_statistic->setStartUnixSeconds({});
+        m_input->setHeading(inputHeading(false));
         emit playingChanged(false);
         showWhatFits();
         showOrigin();
     });
-    connect(&document, &Document::liveChanged, this, &Workbench::showLive);
+    connect(&document, &Document::liveChanged, this, [this] { m_live->show(*m_closeup); });
+    connect(m_live, &LivePictures::planChanged, this, [this] {
+        showHeading();
+        showWhatFits();
+        showOrigin();
+    });
     connect(&document.viewport(), &Viewport::followingChanged, this, [this](bool isFollowing) {
         if (!m_document.live().isEmpty())
             emit playingChanged(isFollowing);
     });
-    m_output->canvas()->installEventFilter(this);
     connect(&document, &Document::picturesGrew, this, &Workbench::showPictures);
     m_closeup = new Closeup(document, *m_input, *m_output, this); // connected after the pictures
     m_plainInput = new PlainInput(document, *m_input, this);
@@ -128,7 +129,7 @@ void Workbench::linkViews()
     }
     measureBox(m_document, {m_input, m_output});
     connect(m_output, &WaterfallView::shownPictureChanged, this, [this] {
-        if (isInUse() && m_document.plan() && (m_document.analysis() || isStripDue()))
+        if (isInUse() && m_document.plan() && (m_document.analysis() || m_live->isStripDue()))
             m_statistic->setProfile(tr("D at the cursor"), m_output->shownPicture(), m_output->frequencyAxis());
     });
     whenInUse(viewport, &Viewport::cursorChanged, &Workbench::readCursor);
@@ -370,7 +371,7 @@ void Workbench::setRadioAxis(bool isOn)
 
 void Workbench::showOrigin()
 {
-    const auto recording = m_livePlan ? m_livePlan->recording : m_document.recording();
+    const auto recording = m_live->plan() ? m_live->plan()->recording : m_document.recording();
     m_document.viewport().setOriginHz(m_isRadioAxis && recording ? recording->info().centreHz : 0.0);
 }
 

@@ -3,13 +3,12 @@
 #include "app/features/pictures/Bench.h"
 #include "widgets/base/ReadOut.h"
 
-#include <QElapsedTimer>
-
 class QSplitter;
 
 namespace faintline {
 
 class Closeup;
+class LivePictures;
 class PlainInput;
 class RegulationPlot;
 class StripPlot;
@@ -30,7 +29,6 @@ public:
     WaterfallView *firstView() const override { return m_output; }
     QString firstViewName() const override { return QStringLiteral("output"); }
     bool hasReadOut() const override { return false; }
-    bool eventFilter(QObject *watched, QEvent *event) override; ///< detects when a live picture is painted
     QString hint() const override;
     OutputLayers &layers() const override { return *m_layers; }
 
@@ -38,6 +36,7 @@ public:
     void setPlace(const Place &place) override;
     Closeup &closeup() { return *m_closeup; }
     PlainInput &plainInput() { return *m_plainInput; }
+    LivePictures &live() { return *m_live; }
     StripPlot *statisticPlot() const { return m_statistic; }
     StripPlot *regulationPlot() const;
 
@@ -71,8 +70,6 @@ protected:
 
 signals:
     void readingChanged(const faintline::ReadOut::Reading &reading);
-    /// A live picture was painted this long after the last sample of its newest frame.
-    void livePainted(double secondsLater);
 
 private:
     static QString inputHeading(bool isRest);
@@ -81,11 +78,6 @@ private:
     void showInput();
     void showPictures(const PicturesSoFar &pictures);
     void followExtents(const Axis &time, const Axis &frequency);
-    void showLive();
-    void showLiveTracks();
-    void growExtents(const LiveView &live);
-    bool isStripDue();
-    void markChanges();
     void placeCursor();
     void read(const Viewport::Point &point);
 
@@ -98,11 +90,8 @@ private:
     QWidget *m_outputPane;
     StripPlot *m_statistic;
     RegulationPlot *m_regulation;
-    bool m_isFirstPicture = true;                   ///< of the open source
-    QElapsedTimer m_stripAge;                       ///< of a live run's curve
-    std::shared_ptr<const AnalysisPlan> m_livePlan; ///< of the live picture shown
-    Index m_colouredFrames = 0;                     ///< number of frames when its colours were chosen
-    bool m_isToBePainted = false;
+    LivePictures *m_live;
+    bool m_isFirstPicture = true; ///< of the open source
     bool m_isRadioAxis = false;
     bool m_isRegulationWanted = true;
     bool m_isRegulationFirst = false;
