@@ -6,6 +6,7 @@
 #include "app/document/scanScenario.h"
 #include "app/features/evaluate/ExperimentsPanel.h"
 #include "app/features/pictures/PingBench.h"
+#include "app/features/pictures/ShownAxes.h"
 #include "app/features/pictures/Workbench.h"
 #include "app/features/sequential/SequentialPanel.h"
 #include "app/features/survey/SurveyPanel.h"
@@ -105,10 +106,10 @@ namespace {
         if ((!options.axes.empty() || options.isSliced) && !frameKindOf(grid).hasHiddenAxes)
             throw Error(options.axes.empty() ? "--slice" : "--axes", "requires frames on more than two axes");
         if (!options.axes.empty())
-            pings.setAxes(options.axes);
+            pings.axes().set(options.axes);
         window.bench().setPlace({options.seconds, options.hz, options.range, options.bearing, options.position});
         if (options.isSliced)
-            pings.setSliced(true);
+            pings.axes().setSliced(true);
     }
 
     /// Provenance of what the window shows; for a radar's scans, the settings of their test.

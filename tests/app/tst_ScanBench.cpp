@@ -3,6 +3,7 @@
 #include "app/document/OutputLayers.h"
 #include "app/features/pictures/AxesBar.h"
 #include "app/features/pictures/PingBench.h"
+#include "app/features/pictures/ShownAxes.h"
 #include "app/features/pictures/Workbench.h"
 #include "app/openWindow.h"
 #include "app/ping.h"
@@ -120,7 +121,7 @@ private slots:
     {
         const Event event = m_window->document().shownEvents().front();
         bench().selectEvent(event.id);
-        bench().setAxes(0, 3);
+        bench().axes().set(0, 3);
         QCOMPARE(bench().viewports().place().position, event.position);
         QCOMPARE(*bench().viewports().map().cursor(), (Viewport::Point{event.position[0], event.position[3]}));
         const auto place = cursorOf(m_window->document(), bench().viewports());
@@ -131,7 +132,7 @@ private slots:
     /// A click where maxima are shown goes to the strongest cell behind the place.
     void aClickFindsTheCellBehind()
     {
-        bench().setAxes(1, 2);
+        bench().axes().set(1, 2);
         const Event event = m_window->document().shownEvents().front();
         bench().showPing(analysis().time().nearest(event.detectSeconds));
         WaterfallView &plane = *bench().output()->plane();
@@ -150,7 +151,7 @@ private slots:
         QVERIFY(std::ranges::none_of(boxes(), &QWidget::isVisible));
         bar().others()->setCurrentIndex(1);
         emit bar().others()->activated(1);
-        QVERIFY(bench().isSliced());
+        QVERIFY(bench().axes().isSliced());
         const std::vector<Axis> &axes = analysis().grid().axes;
         const Index elevation = axes[2].nearest(event.position[2]);
         const Index doppler = axes[3].nearest(event.position[3]);
@@ -168,7 +169,7 @@ private slots:
         WaterfallView &plane = *bench().output()->plane();
         QTest::mouseClick(plane.canvas(), Qt::LeftButton, {}, plane.canvas()->rect().center());
         QCOMPARE(bench().viewports().place().position[2], axes[2].value(double(other)));
-        bench().setSliced(false);
+        bench().axes().setSliced(false);
         QVERIFY(shownMap() == expectedMap(0, 1));
     }
 
@@ -176,7 +177,7 @@ private slots:
     {
         const Event event = m_window->document().shownEvents().front();
         bench().selectEvent(event.id);
-        bench().setAxes(3, 2);
+        bench().axes().set(3, 2);
         OutputLayers &layers = m_window->workbench().layers();
         layers.setLayer(OutputLayer::Rate);
         QVERIFY(settle(layers));
@@ -206,32 +207,32 @@ private slots:
     {
         const Event event = m_window->document().shownEvents().front();
         bench().selectEvent(event.id);
-        bench().setAxes(0, 3);
-        bench().setSliced(true);
+        bench().axes().set(0, 3);
+        bench().axes().setSliced(true);
         Session session;
         session.source = m_window->document().source();
         session.settings = m_window->document().settings();
         session.view = toJson(bench().viewState());
         writeSession(pathBytes(path("s.faintline")), session);
-        bench().setSliced(false);
-        bench().setAxes(0, 1);
+        bench().axes().setSliced(false);
+        bench().axes().set(0, 1);
         QVERIFY(openAndSettle(*m_window, path("s.faintline")));
         QCOMPARE(bench().viewports().plane().along, std::size_t(0));
         QCOMPARE(bench().viewports().plane().across, std::size_t(3));
-        QVERIFY(bench().isSliced());
+        QVERIFY(bench().axes().isSliced());
         QCOMPARE(bench().viewports().place().position, event.position);
         // Another source begins on its first two axes, by maximum.
         QVERIFY(openAndSettle(*m_window, path("scans.json")));
         QCOMPARE(bench().viewports().plane(), FramePlane());
-        QVERIFY(!bench().isSliced());
+        QVERIFY(!bench().axes().isSliced());
     }
 
     void axesByName()
     {
-        bench().setAxes({"Doppler", "range"});
+        bench().axes().set({"Doppler", "range"});
         QVERIFY(shownMap() == expectedMap(0, 3)); // in the order of the list of pairs
         const auto refusal = [&](std::vector<std::string> names) {
-            return QString::fromStdString(errorOf([&] { bench().setAxes(names); }));
+            return QString::fromStdString(errorOf([&] { bench().axes().set(names); }));
         };
         QVERIFY2(refusal({"range", "azimuth"}).contains("must be one of range, bearing, elevation, Doppler"),
                  qPrintable(refusal({"range", "azimuth"})));
@@ -245,8 +246,8 @@ private slots:
     /// Two axes after four, and spectra after that.
     void otherSourcesAfterwards()
     {
-        bench().setAxes(2, 3);
-        bench().setSliced(true);
+        bench().axes().set(2, 3);
+        bench().axes().setSliced(true);
         writeFile(m_folder, "flat.json",
                   R"({"kind": "pings", "pings": 8, "rangeCells": 60, "beams": 8, "targets": []})");
         QVERIFY(openAndSettle(*m_window, path("flat.json"), [](AnalysisSettings &settings) {

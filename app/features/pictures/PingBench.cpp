@@ -1,12 +1,11 @@
 #include "app/features/pictures/PingBench.h"
 
 #include "app/document/OutputLayers.h"
-#include "app/features/pictures/AxesBar.h"
 #include "app/features/pictures/PingBar.h"
 #include "app/features/pictures/PingRegulation.h"
+#include "app/features/pictures/ShownAxes.h"
 #include "app/features/pictures/pingReading.h"
 #include "app/features/pictures/strongestPlace.h"
-#include "base/oneLine.h"
 #include "frames/pictureCuts.h"
 #include "widgets/base/TimeStack.h"
 #include "widgets/base/labelText.h"
@@ -17,7 +16,6 @@
 #include <QSplitter>
 
 #include <algorithm>
-#include <tuple>
 
 namespace faintline {
 
@@ -31,7 +29,7 @@ PingBench::PingBench(Document &document, OutputLayers &layers, QWidget *parent)
     : Bench(document, pingFrames(), pingInterval, parent), m_layers(layers), m_viewports(document.viewport()),
       m_input(new PingMap(tr("Input (dB over noise)"), m_viewports.map(), &document.display(), &m_mapDirection)),
       m_output(new PingMap(tr("Statistic D (nat)"), m_viewports.map(), &document.display(), &m_mapDirection)),
-      m_bar(new PingBar), m_axesBar(new AxesBar),
+      m_bar(new PingBar), m_axes(new ShownAxes(document, m_viewports, this)),
       m_alongHistory(new WaterfallView(tr("D over range, best bearing"), &document.display(), &m_historyDirection)),
       m_acrossHistory(new WaterfallView(tr("D over bearing, best range"), &document.display(), &m_historyDirection)),
       m_regulation(new PingRegulation(m_viewports.alongTime())), m_maps(newSplitter(Qt::Horizontal))
@@ -56,7 +54,7 @@ void PingBench::showWhatFits()
     constexpr int leastMaps = 350;
     constexpr int histories = 200; // with their splitter
     constexpr int regulation = 85;
-    const int others = m_bar->sizeHint().height() + (m_axesBar->isHidden() ? 0 : m_axesBar->sizeHint().height());
+    const int others = m_bar->sizeHint().height() + (m_axes->bar().isHidden() ? 0 : m_axes->bar().sizeHint().height());
     const int more = m_areMapsFirst ? 220 : 0;
     const int room = height() - others - leastMaps - more;
     historyPanes()->setVisible(room >= histories);
@@ -89,7 +87,7 @@ void PingBench::setEmptySentence(const QString &sentence)
         map->setPicture(nullptr, {});
     m_regulation->clear(sentence);
     m_bar->setReading({});
-    m_axesBar->setGrid({});
+    m_axes->bar().setGrid({});
 }
 
 // ---- what is shown -------------------------------------------------------------------------------------------------
@@ -104,7 +102,7 @@ void PingBench::showAnalysis()
     showHeading();
     // Only on the map: maxima over an axis exceed the threshold nearly everywhere.
     m_output->plane()->setThreshold(analysis.threshold);
-    m_axesBar->setGrid(grid);
+    m_axes->bar().setGrid(grid);
     m_regulation->show(analysis);
     m_bar->setPingCount(analysis.time().count);
     m_bar->setFrameName(m_document.frameKind().frame);
@@ -130,22 +128,13 @@ void PingBench::showAxes()
     };
     show(*m_alongHistory, plane.along, plane.across);
     show(*m_acrossHistory, plane.across, plane.along);
-    m_bar->setPolarPossible(isPolarPossible());
-    if (!isPolarPossible())
+    m_bar->setPolarPossible(m_axes->isPolarPossible());
+    if (!m_axes->isPolarPossible())
         setPolar(false);
     showTruth();
     showEvents();
     m_shownPing = -1;
     followPlace();
-}
-
-/// Seen from above, or from the side: a distance, and an angle in degrees.
-bool PingBench::isPolarPossible() const
-{
-    const Grid &grid = m_document.analysis()->grid();
-    const FramePlane &plane = m_viewports.plane();
-    return !frameKindOf(grid).hasHiddenAxes
-           || (grid.axes[plane.across].unit == "°" && grid.axes[plane.along].name == "range");
 }
 
 void PingBench::setColourBarShown(bool isShown)
@@ -172,7 +161,7 @@ void PingBench::followExtents()
     std::vector<PingViewports::Extent> extents;
     for (const Axis &axis : analysis.grid().axes)
         extents.push_back(extent(axis));
-    m_isSliced = false;
+    m_axes->forgetSlice();
     m_viewports.setExtents(extent(analysis.time()), std::move(extents));
 }
 
@@ -237,8 +226,8 @@ void PingBench::followPlace()
     if (!m_document.analysis())
         return;
     const Analysis &analysis = *m_document.analysis();
-    cut();
-    m_axesBar->show(m_viewports.plane(), m_viewports.place().position, m_isSliced);
+    if (m_axes->followPlace())
+        m_shownPing = -1;
     if (const Index now = ping(); now != m_shownPing) {
         m_shownPing = now;
         const FramePlane &plane = m_viewports.plane();
@@ -341,91 +330,7 @@ int PingBench::framesToPlay(int direction) const
     return m_document.analysis() && next >= 0 && next < m_document.analysis()->time().count ? direction : 0;
 }
 
-// ---- axes ----------------------------------------------------------------------------------------------------------
-
-void PingBench::setAxes(std::size_t along, std::size_t across)
-{
-    const std::vector<AxesBar::Pair> pairs =
-        m_document.analysis() ? pairsOfAxes(m_document.analysis()->grid()) : std::vector<AxesBar::Pair>();
-    const auto found = std::ranges::find_if(pairs, [&](const AxesBar::Pair &pair) {
-        return pair == AxesBar::Pair(along, across) || pair == AxesBar::Pair(across, along);
-    });
-    if (found == pairs.end())
-        throw Error("axes", "must be two different axes of the frames");
-    FramePlane plane;
-    std::tie(plane.along, plane.across) = *found;
-    if (plane.along == m_viewports.plane().along && plane.across == m_viewports.plane().across)
-        return;
-    m_viewports.setPlane(plane);
-    showAxes();
-    showHeading();
-}
-
-void PingBench::setAxes(const std::vector<std::string> &names)
-{
-    const std::vector<Axis> axes = m_document.analysis() ? m_document.analysis()->grid().axes : std::vector<Axis>();
-    const std::string known = listed(axes, &Axis::name);
-    std::vector<std::size_t> found;
-    for (const std::string &name : names) {
-        const auto at = std::ranges::find(axes, name, &Axis::name);
-        if (at == axes.end())
-            throw Error("--axes " + name, known.empty() ? "requires pings or scans" : "must be one of " + known);
-        found.push_back(std::size_t(at - axes.begin()));
-    }
-    if (found.size() != 2 || found[0] == found[1])
-        throw Error("--axes", "must be two different axes of " + known);
-    setAxes(found[0], found[1]);
-}
-
-void PingBench::setSliced(bool isSliced)
-{
-    m_isSliced = isSliced;
-    followPlace();
-}
-
-/// Cuts hidden axes at the cursor, or none.
-void PingBench::cut()
-{
-    const Grid &grid = m_document.analysis()->grid();
-    const PingViewports::Place &place = m_viewports.place();
-    FramePlane plane = m_viewports.plane();
-    plane.cuts.clear();
-    const bool isCut = m_isSliced && frameKindOf(grid).hasHiddenAxes;
-    for (std::size_t axis = 0; isCut && axis < place.position.size(); ++axis)
-        plane.cuts.push_back(plane.isShown(axis) ? std::nullopt
-                                                 : std::optional(grid.axes[axis].nearest(place.position[axis])));
-    if (plane == m_viewports.plane())
-        return;
-    m_viewports.setPlane(plane);
-    m_shownPing = -1;
-}
-
-/// Where maxima are shown, a click goes to the cell behind the place that has the largest D.
-void PingBench::goBehind()
-{
-    if (m_isSliced || !m_document.analysis() || !isInUse() || !frameKindOf(m_document.analysis()->grid()).hasHiddenAxes)
-        return;
-    const Analysis &analysis = *m_document.analysis();
-    const Grid &grid = analysis.grid();
-    const FramePlane &plane = m_viewports.plane();
-    const std::vector<double> behind = grid.position(
-        strongestCell(*analysis.statistic, grid, ping(), plane, grid.axes[plane.along].nearest(m_viewports.along()),
-                      grid.axes[plane.across].nearest(m_viewports.across())));
-    PingViewports::Place place = m_viewports.place();
-    for (std::size_t axis = 0; axis < behind.size(); ++axis)
-        if (!plane.isShown(axis))
-            place.position[axis] = behind[axis];
-    m_viewports.setPlace(place);
-}
-
-void PingBench::goToCell(std::size_t axis, Index cell)
-{
-    PingViewports::Place place = m_viewports.place();
-    if (!m_document.analysis() || axis >= place.position.size())
-        return;
-    place.position[axis] = m_document.analysis()->grid().axes[axis].value(double(cell));
-    m_viewports.setPlace(place);
-}
+// ---- projection ----------------------------------------------------------------------------------------------------
 
 void PingBench::setPolar(bool isPolar)
 {
@@ -436,7 +341,7 @@ void PingBench::setPolar(bool isPolar)
 void PingBench::followProjection()
 {
     PictureDisplay &display = m_document.display();
-    if (display.isPolar() && m_document.analysis() && isInUse() && !isPolarPossible())
+    if (display.isPolar() && m_document.analysis() && isInUse() && !m_axes->isPolarPossible())
         display.setPolar(false);
     m_bar->setPolar(display.isPolar());
 }
@@ -456,7 +361,7 @@ ViewState PingBench::viewState() const
         if (m_viewports.place().position.size() > 2) {
             view.axes = {m_viewports.plane().along, m_viewports.plane().across};
             view.position = m_viewports.place().position;
-            view.isSliced = m_isSliced;
+            view.isSliced = m_axes->isSliced();
         }
     }
     view.isPolar = m_document.display().isPolar();
@@ -466,7 +371,7 @@ ViewState PingBench::viewState() const
 
 void PingBench::restore(const ViewState &view)
 {
-    restoreAxes(view);
+    m_axes->restore(view);
     if (view.visible)
         m_viewports.alongTime().zoomTo(view.visible->time, view.visible->frequency);
     if (view.bearing)
@@ -485,18 +390,6 @@ void PingBench::restore(const ViewState &view)
     setPolar(view.isPolar);
     if (!view.colourMap.isEmpty())
         m_document.display().setColourMap(view.colourMap);
-}
-
-/// Of a session of frames on more than two axes; ignored if it does not fit these frames.
-void PingBench::restoreAxes(const ViewState &view)
-{
-    const auto &analysis = m_document.analysis();
-    if (!view.axes || !analysis || !frameKindOf(analysis->grid()).hasHiddenAxes)
-        return;
-    const auto [along, across] = *view.axes;
-    if (analysis->grid().hasAxis(along) && analysis->grid().hasAxis(across) && along != across)
-        setAxes(along, across);
-    m_isSliced = view.isSliced;
 }
 
 } // namespace faintline

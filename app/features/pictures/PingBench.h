@@ -8,10 +8,10 @@ class QSplitter;
 
 namespace faintline {
 
-class AxesBar;
 class PingBar;
 class PingMap;
 class PingRegulation;
+class ShownAxes;
 
 /// Sonar pings and a radar's scans: input and statistic of one ping as maps of two of its axes, such as range ×
 /// bearing; below, the tracks along both axes against time, and ln K. Pictures whose time runs from left to right are
@@ -42,16 +42,9 @@ public:
     QWidget *histories() const;
     QWidget *maps() const;
     PingViewports &viewports() { return m_viewports; }
+    ShownAxes &axes() { return *m_axes; }
     Place place() const override;
     void setPlace(const Place &place) override;
-
-    /// The axes shown. Throws Error if the grid does not have both, or if they are the same.
-    void setAxes(std::size_t along, std::size_t across);
-    /// By their names, as on the command line.
-    void setAxes(const std::vector<std::string> &names);
-    /// Whether hidden axes are cut at the cursor; otherwise their maxima are shown.
-    bool isSliced() const { return m_isSliced; }
-    void setSliced(bool isSliced);
 
     void setEmptySentence(const QString &sentence) override;
     ViewState viewState() const override;
@@ -91,11 +84,6 @@ private:
     void followPlace();
     void linkAxes();
     void showAxes();
-    void cut();
-    void goBehind();
-    void goToCell(std::size_t axis, Index cell);
-    void restoreAxes(const ViewState &view);
-    bool isPolarPossible() const;
     void followProjection();
     void read(double along, double across);
 
@@ -105,8 +93,8 @@ private:
     TimeDirection m_historyDirection{TimeDirection::Orientation::LeftToRight};
     PingMap *m_input;
     PingMap *m_output;
-    PingBar *m_bar;     ///< below the maps
-    AxesBar *m_axesBar; ///< above them
+    PingBar *m_bar;    ///< below the maps
+    ShownAxes *m_axes; ///< with a bar above them
     WaterfallView *m_alongHistory;
     WaterfallView *m_acrossHistory;
     PingRegulation *m_regulation;
@@ -114,7 +102,6 @@ private:
     PingMarks m_marks;
     Index m_shownPing = -1; ///< ping shown in the maps; -1: none
     bool m_areMapsFirst = false;
-    bool m_isSliced = false;
 };
 
 } // namespace faintline

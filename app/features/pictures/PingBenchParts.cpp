@@ -1,10 +1,10 @@
 // Parts of the bench of pings, their layout and their links.
 
-#include "app/features/pictures/AxesBar.h"
 #include "app/features/pictures/PingBar.h"
 #include "app/features/pictures/PingBench.h"
 #include "app/features/pictures/PingRegulation.h"
 #include "app/features/pictures/RegulationPlot.h"
+#include "app/features/pictures/ShownAxes.h"
 #include "widgets/base/TimeStack.h"
 #include "widgets/pings/PingMap.h"
 
@@ -24,7 +24,7 @@ void PingBench::layOut()
     auto *column = new QVBoxLayout(mapsAndBar);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
-    column->addWidget(m_axesBar);
+    column->addWidget(&m_axes->bar());
     column->addWidget(m_maps, 1);
     column->addWidget(m_bar);
     addPlane(*m_output->plane());
@@ -62,11 +62,15 @@ void PingBench::linkBar()
 
 void PingBench::linkAxes()
 {
-    connect(m_axesBar, &AxesBar::axesChosen, this, qOverload<std::size_t, std::size_t>(&PingBench::setAxes));
-    connect(m_axesBar, &AxesBar::slicedChosen, this, &PingBench::setSliced);
-    connect(m_axesBar, &AxesBar::cellChosen, this, &PingBench::goToCell);
-    connect(&m_viewports, &PingViewports::cursorMoved, this, &PingBench::goBehind);
-    connect(&m_document, &Document::opened, this, [this] { m_viewports.setPlane({}); });
+    connect(m_axes, &ShownAxes::axesChanged, this, [this] {
+        showAxes();
+        showHeading();
+    });
+    connect(m_axes, &ShownAxes::slicedChanged, this, &PingBench::followPlace);
+    connect(&m_viewports, &PingViewports::cursorMoved, this, [this] {
+        if (isInUse())
+            m_axes->goBehind();
+    });
 }
 
 void PingBench::linkViews()
