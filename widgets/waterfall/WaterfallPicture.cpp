@@ -2,17 +2,10 @@
 
 #include "widgets/base/CanvasSentence.h"
 #include "widgets/base/Theme.h"
-#include "widgets/base/axisWords.h"
 #include "widgets/base/fittingTitle.h"
-#include "widgets/base/quantities.h"
-#include "widgets/base/scaleTicks.h"
-#include "widgets/base/steadyAxes.h"
-#include "widgets/plot/NumberScaleDraw.h"
-#include "widgets/plot/TimeScaleDraw.h"
 #include "widgets/waterfall/RasterItem.h"
 #include "widgets/waterfall/peakNear.h"
 
-#include <qwt_scale_engine.h>
 #include <qwt_scale_map.h>
 #include <qwt_text.h>
 
@@ -26,18 +19,13 @@ namespace {
 
     constexpr double peakReach = 12.0; ///< pixels
 
-    bool measuresTime(const Axis &axis)
-    {
-        const bool isPlain = axis.unit.empty() && (axis.name.empty() || axis.name == "time");
-        return axis.unit == "s" || isPlain;
-    }
-
 } // namespace
 
 WaterfallPicture::WaterfallPicture(const QString &heading, PictureDisplay *display, TimeDirection *direction)
     : m_heading(heading), m_raster(new RasterItem), m_sentence(new CanvasSentence),
       m_display(display ? display : new PictureDisplay(this)),
-      m_direction(direction ? direction : new TimeDirection(Orientation::NewestOnTop, this))
+      m_direction(direction ? direction : new TimeDirection(Orientation::NewestOnTop, this)),
+      m_axes(*this, *m_direction)
 {
     m_sentence->text = tr("Open a recording or choose a scenario to start.");
     m_sentence->pixelSize = 14;
@@ -160,11 +148,6 @@ const PeakPyramid &WaterfallPicture::finestPicture(const Span &time) const
     return m_closeup && holds(*m_closeup) ? *m_closeup : *m_picture;
 }
 
-bool WaterfallPicture::hasTime() const
-{
-    return !m_picture || measuresTime(m_picture->time());
-}
-
 Viewport::Box WaterfallPicture::extents(const Axis &time, const Axis &frequency)
 {
     return {{time.value(-0.5), time.value(double(time.count) - 0.5)},
@@ -276,32 +259,8 @@ void WaterfallPicture::updateContent()
 void WaterfallPicture::restyle()
 {
     const bool isEmpty = !m_picture;
-    m_timeDraw = nullptr;
-    m_numberDraw = nullptr;
-    if (hasTime()) {
-        m_timeDraw = new TimeScaleDraw;
-        m_timeDraw->setTimes(full().time, m_startUnixSeconds);
-        setAxisScaleDraw(timeAxis(), m_timeDraw);
-        m_timeTitle = m_timeDraw->title();
-    } else {
-        m_numberDraw = new NumberScaleDraw;
-        setAxisScaleDraw(timeAxis(), m_numberDraw);
-        m_timeTitle = titleOf(m_picture->time());
-    }
-    auto *hzDraw = new NumberScaleDraw;
-    const double largestHz = std::max(std::abs(m_frequency.first), std::abs(m_frequency.last()));
-    const FrequencyUnit unit =
-        originHz() != 0.0 ? frequencyUnit(std::abs(originHz()) + largestHz) : shownUnit(m_frequency);
-    hzDraw->setUnit(unit.hz);
-    hzDraw->setOrigin(originHz());
-    hzDraw->setLogarithmic(isLogarithmic());
-    setAxisScaleEngine(timeAxis(), new QwtLinearScaleEngine);
-    setAxisScaleEngine(hzAxis(), isLogarithmic() ? static_cast<QwtScaleEngine *>(new QwtLogScaleEngine)
-                                                 : new QwtLinearScaleEngine);
-    setAxisScaleDraw(hzAxis(), hzDraw);
-    m_hzTitle = originHz() != 0.0 ? tr("Radio frequency (%1)").arg(unit.name) : titleOf(m_frequency);
-    setAxisTitle(timeAxis(), m_timeTitle);
-    setAxisTitle(hzAxis(), m_hzTitle);
+    m_axes.setContent(
+        {isEmpty ? Axis() : m_picture->time(), m_frequency, full(), originHz(), isLogarithmic(), m_startUnixSeconds});
     setAxisVisible(hzAxis(), !isEmpty);
     setAxisVisible(timeAxis(), !isEmpty && (isTimeVertical() || hasTimeLabels()));
 
@@ -331,43 +290,17 @@ void WaterfallPicture::followCanvas()
 /// Heading and axis titles have the room of the canvas.
 void WaterfallPicture::fitTitles()
 {
-    const QSize room = canvas()->size();
     QwtText heading = title();
-    heading.setText(fittingHeading(m_heading, heading.font(), room.width()));
+    heading.setText(fittingHeading(m_heading, heading.font(), canvas()->width()));
     if (heading != title())
         setTitle(heading);
-    for (const auto &[axis, whole] : {std::pair(timeAxis(), m_timeTitle), std::pair(hzAxis(), m_hzTitle)}) {
-        QwtText own = axisTitle(axis);
-        own.setText(fittingTitle(whole, own.font(), axis == QwtAxis::XBottom ? room.width() : room.height()));
-        if (own != axisTitle(axis))
-            setAxisTitle(axis, own);
-    }
+    m_axes.fitTitles();
 }
 
 void WaterfallPicture::followSpan()
 {
     choosePicture();
-    const auto [time, hz] = visible();
-    const QSize size = canvas()->contentsRect().size();
-    const int along = isTimeVertical() ? size.height() : size.width();
-    const int across = isTimeVertical() ? size.width() : size.height();
-    auto *hzDraw = static_cast<NumberScaleDraw *>(axisScaleDraw(hzAxis()));
-
-    const int timeSpacing = isTimeVertical() ? 42 : m_timeDraw && m_timeDraw->isClock() ? 90 : 60;
-    const int timeTicks = std::clamp(along / timeSpacing, 1, 12);
-    const QwtScaleDiv timeDiv =
-        m_timeDraw ? timeScaleDiv(time, timeTicks, m_startUnixSeconds.value_or(0.0)) : linearScaleDiv(time, timeTicks);
-    setAxisScaleDiv(timeAxis(), m_direction->orientation() == Orientation::OldestOnTop ? timeDiv.inverted() : timeDiv);
-    const int hzSpacing = !isTimeVertical() ? 42 : originHz() != 0.0 ? 110 : 60;
-    const int hzTicks = std::clamp(across / hzSpacing, 1, 12);
-    setAxisScaleDiv(hzAxis(),
-                    isLogarithmic() ? logarithmicScaleDiv(hz, hzTicks) : linearScaleDiv(hz, hzTicks, originHz()));
-
-    const QString timeLabel =
-        m_timeDraw ? m_timeDraw->widestLabel(full().time) : m_numberDraw->widestLabel(full().time);
-    const QString hzLabel = hzDraw->widestLabel(full().frequency);
-    steadyAxes(*this, isTimeVertical() ? timeLabel : hzLabel, isTimeVertical() ? hzLabel : timeLabel);
-
+    m_axes.show(visible(), full());
     countHistogram();
     replot();
 }

@@ -1,12 +1,10 @@
 #pragma once
 
-#include "base/Axis.h"
 #include "frames/PeakPyramid.h"
 #include "widgets/base/ThemedPlot.h"
-#include "widgets/base/TimeDirection.h"
-#include "widgets/base/Viewport.h"
 #include "widgets/plot/PictureColours.h"
 #include "widgets/waterfall/ColourLevels.h"
+#include "widgets/waterfall/PictureAxes.h"
 #include "widgets/waterfall/PictureDisplay.h"
 
 #include <QPointer>
@@ -18,9 +16,7 @@
 namespace faintline {
 
 class CanvasSentence;
-class NumberScaleDraw;
 class RasterItem;
-class TimeScaleDraw;
 
 /// A spectrogram, or a detector's statistic, over time and frequency; or over any two axes, such as a sonar's range and
 /// bearing, whose own names then label them.
@@ -86,8 +82,8 @@ public:
     Span automaticRange() const;
     /// Number of pixels per byte of the picture's scale, for the whole picture, or its close-up, at this zoom.
     const std::vector<double> &histogram() const { return m_levels.histogram(); }
-    QString valueUnit() const; ///< "dB", or the statistic's
-    bool hasTime() const;      ///< as the picture's own axis
+    QString valueUnit() const;                        ///< "dB", or the statistic's
+    bool hasTime() const { return m_axes.hasTime(); } ///< as the picture's own axis
     /// Unit of the statistic, by default "nat", and a heading that contains it.
     void setStatisticUnit(const QString &unit, const QString &heading);
     void setHeading(const QString &heading);
@@ -105,8 +101,8 @@ public:
     QPointF positionOf(const Viewport::Point &point) const;
     bool isLogarithmic() const { return m_viewport && m_viewport->isLogarithmic(); } ///< the frequency axis
     bool isTimeVertical() const { return m_direction->isVertical(); }
-    QwtAxisId timeAxis() const { return isTimeVertical() ? QwtAxis::YLeft : QwtAxis::XBottom; }
-    QwtAxisId hzAxis() const { return isTimeVertical() ? QwtAxis::XBottom : QwtAxis::YLeft; }
+    QwtAxisId timeAxis() const { return m_axes.timeAxis(); }
+    QwtAxisId hzAxis() const { return m_axes.hzAxis(); }
 
     QSize sizeHint() const override { return {520, 420}; }
     QSize minimumSizeHint() const override { return {110, 100}; }
@@ -144,8 +140,6 @@ private:
     double levelStep() const;
 
     QString m_heading;
-    QString m_timeTitle; ///< of the axes, whole
-    QString m_hzTitle;
     QString m_statisticUnit = QStringLiteral("nat");
     QPointer<Viewport> m_viewport;
     std::shared_ptr<const PeakPyramid> m_picture;
@@ -155,10 +149,9 @@ private:
     std::optional<double> m_startUnixSeconds;
     RasterItem *m_raster;
     CanvasSentence *m_sentence;
-    TimeScaleDraw *m_timeDraw = nullptr;     ///< owned by the plot; null if the picture's own axis is not time,
-    NumberScaleDraw *m_numberDraw = nullptr; ///< which then uses this one
     PictureDisplay *m_display;
     TimeDirection *m_direction;
+    PictureAxes m_axes;
     ColourLevels m_levels;
     bool m_isPlain = false;
     std::optional<double> m_threshold;
