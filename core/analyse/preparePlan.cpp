@@ -61,14 +61,15 @@ void normalisePlan(AnalysisPlan &plan, std::shared_ptr<const Spectrogram> spectr
 void calibratePlan(AnalysisPlan &plan, const RunContext &context, CalibrationDepth depth)
 {
     plan.model = makeModel(plan.settings.model, plan.grid());
-    plan.calibration = calibrateBand(plan.settings, *plan.frames->spectrogram(), context, depth);
-    plan.cellFramesPerHour = cellFramesInAnHour(plan.settings, *plan.frames->spectrogram());
+    const Spectrogram &spectrogram = *plan.frames->spectrogram();
+    plan.calibration = calibrateBand(plan.settings, spectrogram, context, depth);
+    plan.cellFramesPerHour = cellFramesInAnHour(plan.settings, spectrogram);
     plan.threshold = thresholdNats(plan.settings.decide, *plan.calibration, plan.cellFramesPerHour);
 }
 
 NormalisedFramesPointer framesOfLines(const AnalysisPlan &plan)
 {
-    return plan.settings.family.isNone() ? plan.frames : familyFrames(plan.lines, {});
+    return plan.lines.empty() ? plan.frames : familyFrames(plan.lines, {});
 }
 
 } // namespace faintline

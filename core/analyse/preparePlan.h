@@ -14,8 +14,7 @@ void normalisePlan(AnalysisPlan &plan, std::shared_ptr<const Spectrogram> spectr
 void calibratePlan(AnalysisPlan &plan, const RunContext &context = {},
                    CalibrationDepth depth = CalibrationDepth::Refined);
 
-/// The frames of single lines, of all channels together, in which a family is searched for; without a family the plan's
-/// own frames. Precondition: for a family, frames of a spectrogram.
+/// The frames of single lines, of all channels together, in which a family is searched for; of ready-made frames, these.
 NormalisedFramesPointer framesOfLines(const AnalysisPlan &plan);
 
 } // namespace faintline

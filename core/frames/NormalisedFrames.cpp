@@ -36,6 +36,16 @@ FrameGeometry NormalisedFrames::geometry() const
     return geometry;
 }
 
+bool NormalisedFrames::isObserved(Index frame) const
+{
+    return !spectrogram() || spectrogram()->isObserved(frame);
+}
+
+void NormalisedFrames::readPower(Index first, Index count, std::span<float> out, const RunContext &context) const
+{
+    spectrogram()->read(first, count, out, context);
+}
+
 void FrameArray::read(Index first, Index count, std::span<float> out) const
 {
     const Index cells = grid().size();

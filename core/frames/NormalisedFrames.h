@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/Grid.h"
+#include "base/RunContext.h"
 #include "frames/Window.h"
 
 #include <memory>
@@ -50,6 +51,12 @@ public:
 
     /// The spectrogram from which the frames were made; null for ready-made frames.
     virtual const Spectrogram *spectrogram() const { return nullptr; }
+
+    /// Whether a frame was observed; always of ready-made frames.
+    bool isObserved(Index frame) const;
+    /// Reads the power itself, before the noise was divided out, in the unit of its background. Precondition: frames of
+    /// a spectrogram.
+    void readPower(Index first, Index count, std::span<float> out, const RunContext &context = {}) const;
 
     /// The spectrogram's geometry. Ready-made frames are taken as independent, with one bin a resolution cell and the
     /// leakage of a Hann window.

@@ -28,10 +28,10 @@ namespace {
         return PeakPyramid(time, analysis.grid().size(), ByteScale(kind), byteBudget);
     }
 
-    /// Calls `take` with blocks of frames of a source, in order.
-    template <class Source, class Take>
-    void readFrames(const Source &source, const Analysis &analysis, const FrameStretch &frames,
-                    const RunContext &context, const Take &take)
+    /// Calls `read`, and then `take` with each block of frames, in order.
+    template <class Read, class Take>
+    void readFrames(const Analysis &analysis, const FrameStretch &frames, const RunContext &context, const Read &read,
+                    const Take &take)
     {
         const Index cells = analysis.grid().size();
         const Index most = std::max<Index>(1, blockValues / cells);
@@ -41,7 +41,7 @@ namespace {
             context.checkpoint(share, closingUp);
             const Index count = std::min(most, frames.end - first);
             block.resize(std::size_t(count * cells));
-            source.read(first, count, block);
+            read(first, count, block);
             take(block);
         }
     }
@@ -81,8 +81,10 @@ std::shared_ptr<const PeakPyramid> inputCloseup(const Analysis &analysis, const 
                                                 std::size_t byteBudget, const RunContext &context)
 {
     auto picture = std::make_shared<PeakPyramid>(emptyPicture(analysis, stretch, ByteScale::Kind::PowerDb, byteBudget));
-    readFrames(*analysis.frames, analysis, stretch, context,
-               [&](std::span<const float> block) { picture->append(block); });
+    readFrames(
+        analysis, stretch, context,
+        [&](Index first, Index count, std::span<float> block) { analysis.frames->read(first, count, block); },
+        [&](std::span<const float> block) { picture->append(block); });
     picture->finish();
     return picture;
 }
@@ -104,8 +106,7 @@ std::shared_ptr<const PeakPyramid> statisticCloseup(const Analysis &analysis, co
 
 std::optional<PlainPicture> plainPicture(const Analysis &analysis, std::size_t byteBudget, const RunContext &context)
 {
-    const Spectrogram *spectrogram = analysis.frames->spectrogram();
-    if (!spectrogram || !analysis.background || !(analysis.grid().axes.back() == spectrogram->frequency()))
+    if (!analysis.background || !(analysis.grid().axes.back() == analysis.lines.front()->grid().axes.back()))
         return {};
     std::vector<float> noise;
     std::ranges::copy_if(analysis.background->lnPower, std::back_inserter(noise),
@@ -114,20 +115,21 @@ std::optional<PlainPicture> plainPicture(const Analysis &analysis, std::size_t b
         return {};
     const auto low = noise.begin() + std::ssize(noise) / 20;
     std::ranges::nth_element(noise, low);
-    const RecordingInfo &info = spectrogram->recording().info();
+    const RecordingInfo &info = analysis.recording->info();
     const double perHz = // of the frames' unit
         (info.isComplex ? 1.0 : 2.0) * std::exp(analysis.background->lnUnit) / info.sampleRateHz;
     const double referenceDb = std::round(dbFromRatio(std::exp(double(*low)) * perHz));
     const auto gain = float(perHz / ratioFromDb(referenceDb));
     const FrameStretch all{0, analysis.time().count};
     auto picture = std::make_shared<PeakPyramid>(emptyPicture(analysis, all, ByteScale::Kind::PowerDb, byteBudget));
-    std::vector<float> scaled;
-    readFrames(*spectrogram, analysis, all, context, [&](std::span<const float> block) {
-        scaled.assign(block.begin(), block.end());
-        for (float &power : scaled)
-            power *= gain;
-        picture->append(scaled);
-    });
+    readFrames(
+        analysis, all, context,
+        [&](Index first, Index count, std::span<float> block) {
+            analysis.lines.front()->readPower(first, count, block);
+            for (float &power : block)
+                power *= gain;
+        },
+        [&](std::span<const float> block) { picture->append(block); });
     picture->finish();
     return PlainPicture{std::move(picture), referenceDb};
 }

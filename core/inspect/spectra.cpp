@@ -1,7 +1,6 @@
 #include "inspect/spectra.h"
 
 #include "analyse/preparePlan.h"
-#include "frames/Spectrogram.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,31 +22,31 @@ namespace {
     {
     public:
         Reader(const Analysis &analysis, SpectrumQuantity quantity)
-            : m_frames(framesOfLines(analysis)),
-              m_spectrogram(quantity == SpectrumQuantity::Density ? analysis.frames->spectrogram() : nullptr),
+            : m_isDensity(quantity == SpectrumQuantity::Density && analysis.background),
+              m_frames(m_isDensity ? analysis.lines.front() : framesOfLines(analysis)),
               m_values(std::size_t(axis().count))
         {
-            if (!m_spectrogram)
+            if (!m_isDensity)
                 return;
-            const RecordingInfo &info = m_spectrogram->recording().info();
-            m_unit = (info.isComplex ? 1.0 : 2.0) * std::pow(4.0, m_spectrogram->scaleExponent()) / info.sampleRateHz;
+            const RecordingInfo &info = analysis.recording->info();
+            m_unit = (info.isComplex ? 1.0 : 2.0) * std::exp(analysis.background->lnUnit) / info.sampleRateHz;
         }
 
-        const Axis &axis() const { return m_spectrogram ? m_spectrogram->frequency() : m_frames->grid().axes.back(); }
+        const Axis &axis() const { return m_frames->grid().axes.back(); }
 
         double value(std::size_t cell) const { return m_unit * double(m_values[cell]); }
 
         void read(Index frame, const RunContext &context)
         {
-            if (m_spectrogram)
-                m_spectrogram->read(frame, 1, m_values, context);
+            if (m_isDensity)
+                m_frames->readPower(frame, 1, m_values, context);
             else
                 m_frames->read(frame, 1, m_values);
         }
 
     private:
-        NormalisedFramesPointer m_frames; ///< of single lines, also for a family
-        const Spectrogram *m_spectrogram;
+        bool m_isDensity;
+        NormalisedFramesPointer m_frames; ///< of single lines, also for a family; of a density, the first channel's
         double m_unit = 1.0;
         std::vector<float> m_values;
     };

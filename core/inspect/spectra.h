@@ -30,7 +30,7 @@ struct TimeSpan {
 /// The frame nearest to `seconds`, and the mean over `time`: of all its frames, or of 400 evenly spread ones. Values
 /// that were not observed are omitted from the mean and NaN in a frame. A density needs a recording.
 ///
-///   density = y·4^e/f_s for complex samples, twice that for real ones;  e = scaleExponent
+///   density = power/f_s for complex samples, twice that for real ones
 ///
 /// Oracle: white noise of variance σ² has the density 2σ²/f_s. Throws Cancelled.
 Spectra spectraOf(const Analysis &analysis, double seconds, const TimeSpan &time, SpectrumQuantity quantity,

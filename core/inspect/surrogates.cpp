@@ -44,7 +44,8 @@ SurrogateCount countOnSurrogates(RecordingPointer recording, const AnalysisSetti
     counting.decide.falseAlarmsPerHour = result.orderPerHour;
     for (int run = 0; run < runs; ++run) {
         const auto surrogate =
-            std::make_shared<SurrogateRecording>(*spectrogram, background, firstSeed + std::uint64_t(run));
+            std::make_shared<SurrogateRecording>(recording, settings.selection.channel, spectrogram->windowSamples(),
+                                                 background, firstSeed + std::uint64_t(run));
         const auto analysis =
             analyse(surrogate, counting, {}, context.part(0.2 + 0.8 * run / runs, 0.2 + 0.8 * (run + 1) / runs));
         result.threshold = analysis->threshold;

@@ -27,11 +27,10 @@ namespace {
 
 } // namespace
 
-SurrogateRecording::SurrogateRecording(const Spectrogram &spectrogram,
+SurrogateRecording::SurrogateRecording(RecordingPointer recording, int channel, int windowSamples,
                                        std::shared_ptr<const NoiseBackground> background, std::uint64_t seed)
-    : DerivedRecording(spectrogram.recordingPointer()), m_baseChannel(spectrogram.selection().channel),
-      m_background(std::move(background)), m_seed(seed),
-      m_filter(Fft::fastLength((spectrogram.windowSamples() + 1) / 2) * 2)
+    : DerivedRecording(std::move(recording)), m_baseChannel(channel), m_background(std::move(background)), m_seed(seed),
+      m_filter(Fft::fastLength((windowSamples + 1) / 2) * 2)
 {
     m_info.container = "surrogate";
     m_info.notes.push_back("Noise like that of " + m_base->info().path + ", without its signals.");

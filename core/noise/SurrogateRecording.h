@@ -1,6 +1,5 @@
 #pragma once
 
-#include "frames/Spectrogram.h"
 #include "noise/NoiseBackground.h"
 #include "signal/BlockFilter.h"
 #include "signal/Recording.h"
@@ -22,8 +21,9 @@ namespace faintline {
 class SurrogateRecording final : public DerivedRecording
 {
 public:
-    SurrogateRecording(const Spectrogram &spectrogram, std::shared_ptr<const NoiseBackground> background,
-                       std::uint64_t seed);
+    /// `windowSamples`: of the spectrogram, as of its background, which is that of the channel.
+    SurrogateRecording(RecordingPointer recording, int channel, int windowSamples,
+                       std::shared_ptr<const NoiseBackground> background, std::uint64_t seed);
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
 

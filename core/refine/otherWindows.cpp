@@ -54,7 +54,7 @@ namespace {
             for (std::size_t i = 0; i < track.points.size(); ++i) {
                 const SmoothedPoint &point = track.smoothed[i];
                 const bool isThere = // what was not observed is no pause
-                    track.isPresent(i) || !analysis.frames->spectrogram()->isObserved(track.points[i].frame);
+                    track.isPresent(i) || !analysis.frames->isObserved(track.points[i].frame);
                 m_bands.push_back(isThere ? Band{std::min(hzAt(i), axis.value(double(point.low))),
                                                  std::max(hzAt(i), axis.value(double(point.high)))}
                                           : Band{});

@@ -1,6 +1,5 @@
 #include "refine/signalKind.h"
 
-#include "frames/Spectrogram.h"
 #include "refine/constants.h"
 
 #include <algorithm>
@@ -30,9 +29,8 @@ namespace {
 
     int pausesOf(const Track &track, const AnalysisPlan &plan)
     {
-        const Spectrogram *spectrogram = plan.frames->spectrogram();
         const auto isPause = [&](std::size_t i) {
-            return !track.isPresent(i) && (!spectrogram || spectrogram->isObserved(track.points[i].frame));
+            return !track.isPresent(i) && plan.frames->isObserved(track.points[i].frame);
         };
         int pauses = 0;
         for (std::size_t i = 1; i + 1 < track.points.size(); ++i)

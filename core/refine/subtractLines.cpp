@@ -69,9 +69,11 @@ std::vector<LinePath> pathsOf(const AnalysisPlan &plan, std::vector<Track> track
 RecordingPointer restOf(const AnalysisPlan &plan, std::vector<Track> tracks, const RunContext &context)
 {
     constexpr std::uint64_t seed = 4711; // the noise only has to differ from the recording's own
-    const SurrogateRecording noise(*plan.frames->spectrogram(), plan.background, seed);
-    return std::make_shared<ResidualRecording>(plan.recording, plan.settings.selection.channel,
-                                               pathsOf(plan, std::move(tracks)), &noise, context);
+    const int channel = plan.settings.selection.channel;
+    const SurrogateRecording noise(plan.recording, channel, plan.frames->geometry().windowSamples, plan.background,
+                                   seed);
+    return std::make_shared<ResidualRecording>(plan.recording, channel, pathsOf(plan, std::move(tracks)), &noise,
+                                               context);
 }
 
 std::string subtractionWords(const Analysis &analysis)
