@@ -107,19 +107,18 @@ const std::vector<Field<FamilySettings>> &FamilySettings::fields()
 
 void checkFamily(const FamilySettings &settings)
 {
-    if (settings.isNone())
-        return;
+    const FamilySettings family = familyOrLine(settings);
     const auto refuse = [&](const std::string &why) {
-        throw fieldError("family.members", formatFieldValue(settings.members), why);
+        throw fieldError("family.members", formatFieldValue(family.members), why);
     };
-    if (settings.members.empty())
+    if (family.members.empty())
         refuse("needs at least one member, such as 1, 2, 3 (harmonics) or -50, 0, 50 (offsets)");
-    if (settings.members.size() > mostMembers)
+    if (family.members.size() > mostMembers)
         refuse("at most 64 members are possible");
-    if (closest(settings.members) == 0.0)
+    if (closest(family.members) == 0.0)
         refuse("must not name a member twice");
-    if (settings.relation == FamilySettings::Relation::Harmonics)
-        for (const double member : settings.members)
+    if (family.relation == FamilySettings::Relation::Harmonics)
+        for (const double member : family.members)
             if (!(member > 0.0 && member <= 64.0))
                 refuse("multiples of a fundamental must lie above 0 and be at most 64");
 }
