@@ -1,4 +1,4 @@
-#include "noise/noiseSources.h"
+#include "noise/NoiseBackground.h"
 
 #include "base/multiversion.h"
 #include "noise/constants.h"

@@ -1,4 +1,4 @@
-#include "refine/encounters.h"
+#include "refine/relink.h"
 
 #include "refine/PolynomialFit.h"
 #include "refine/constants.h"

@@ -3,7 +3,6 @@
 #include "refine/PolynomialFit.h"
 #include "refine/assign.h"
 #include "refine/constants.h"
-#include "refine/encounters.h"
 
 #include <algorithm>
 #include <cmath>

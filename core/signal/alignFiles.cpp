@@ -1,4 +1,4 @@
-#include "signal/alignFiles.h"
+#include "signal/Timeline.h"
 
 #include "base/Error.h"
 #include "base/Field.h"

@@ -1,4 +1,4 @@
-#include "noise/noiseSources.h"
+#include "noise/NoiseBackground.h"
 #include "support/test.h"
 
 #include "base/Random.h"

@@ -1,8 +1,8 @@
 #include "signal/formats/AudioRecording.h"
 
 #include "base/Error.h"
+#include "signal/formats/AudioDecoder.h"
 #include "signal/formats/SampleType.h"
-#include "signal/formats/audioMetadata.h"
 
 #include <algorithm>
 #include <limits>

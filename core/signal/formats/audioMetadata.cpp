@@ -1,4 +1,4 @@
-#include "signal/formats/audioMetadata.h"
+#include "signal/formats/AudioDecoder.h"
 
 #include "base/utc.h"
 #include "signal/formats/bytes.h"
