@@ -64,11 +64,10 @@ namespace {
         }
         event.snrDb = dbFromRatio(level);
         event.bandWidth = band * analysis.grid().axes.back().step;
-        const double cellFrames = double(analysis.grid().size()) * double(analysis.time().count);
         event.windowSeconds =
             track.windowSeconds > 0.0 ? track.windowSeconds : analysis.frames->geometry().windowSeconds;
         event.kind = kindOf(track, analysis);
-        event.noiseProbability = -std::expm1(-analysis.calibration->eventRateAt(event.statistic) * cellFrames);
+        event.noiseProbability = noiseProbability(event.statistic, analysis);
     }
 
 } // namespace
@@ -92,6 +91,12 @@ std::string unreportedWords(const Analysis &analysis)
                       : std::to_string(paths) + (paths == 1 ? " path" : " paths")
                             + " above the threshold not reported: cells this strong, or runs of them, are common in "
                               "this recording's noise";
+}
+
+double noiseProbability(double statistic, const AnalysisPlan &analysis)
+{
+    const double cellFrames = double(analysis.grid().size()) * double(analysis.time().count);
+    return -std::expm1(-analysis.calibration->eventRateAt(statistic) * cellFrames);
 }
 
 double statisticOf(const Track &track, const AnalysisPlan &analysis)

@@ -63,6 +63,9 @@ std::vector<AreaEvent> areaEvents(const Analysis &analysis);
 /// none.
 std::string unreportedWords(const Analysis &analysis);
 
+/// Event::noiseProbability of a statistic; of a live run, in its frames so far.
+double noiseProbability(double statistic, const AnalysisPlan &analysis);
+
 /// A track's statistic as its event gives it.
 double statisticOf(const Track &track, const AnalysisPlan &analysis);
 

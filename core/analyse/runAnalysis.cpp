@@ -149,7 +149,10 @@ namespace {
                 view = lookBehind(analysis, std::move(view), context.part(0.2, 0.5));
             analysis.tracks = std::move(view.tracks);
             analysis.tracks.insert(analysis.tracks.end(), subtracted.begin(), subtracted.end());
-            numberByDetection(analysis.tracks);
+            if (analysis.settings.noise.causal)
+                std::ranges::sort(analysis.tracks, {}, &Track::id);
+            else
+                numberByDetection(analysis.tracks);
             analysis.areas = joinAreas(std::move(view.areas));
             analysis.explainedByNoise = std::move(view.explainedByNoise);
         } else if (cutsOnly(analysis) && !request.isTrial) {
@@ -214,6 +217,15 @@ namespace {
         pictures.finish(publisher);
         pings.finish();
         return chain->takeJoinedTracks();
+    }
+
+    /// Over a causal background tracks keep the numbers of the chain, of which a listener may have told.
+    void trim(Analysis &analysis)
+    {
+        if (analysis.settings.noise.causal)
+            std::ranges::for_each(analysis.tracks, trimEnds);
+        else
+            analysis.tracks = withEndsTrimmed(std::move(analysis.tracks));
     }
 
     /// Sets the rest of the analysis. `subtracted`: lines that were removed before the frames were made.
@@ -383,7 +395,7 @@ namespace {
             publisher = ProgressPublisher(request.pictures, analysis.time(), analysis.grid().axes.back());
         run(analysis, context.part(0.1, 1.0), request, publisher);
         if (!request.isTrial)
-            analysis.tracks = withEndsTrimmed(std::move(analysis.tracks));
+            trim(analysis);
     }
 
 } // namespace
@@ -396,7 +408,7 @@ std::shared_ptr<Analysis> runOnRecording(const RecordingPointer &recording, cons
     std::shared_ptr<Analysis> analysis =
         analyseWithRest(recording, settings, context, lender(request.previous, recording), request);
     if (!request.isTrial)
-        analysis->tracks = withEndsTrimmed(std::move(analysis->tracks));
+        trim(*analysis);
     return analysis;
 }
 

@@ -53,7 +53,7 @@ public:
     virtual const Spectrogram *spectrogram() const { return nullptr; }
 
     /// Whether a frame was observed; always of ready-made frames.
-    bool isObserved(Index frame) const;
+    virtual bool isObserved(Index frame) const;
     /// Reads the power itself, before the noise was divided out, in the unit of its background. Precondition: frames of
     /// a spectrogram.
     void readPower(Index first, Index count, std::span<float> out, const RunContext &context = {}) const;

@@ -1,6 +1,9 @@
 #include "live/EventFollower.h"
 
+#include "analyse/endedTrack.h"
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace faintline {
@@ -9,6 +12,11 @@ EventFollower::EventFollower(const AnalysisPlan &plan, DetectionChain &chain, In
     : m_plan(plan), m_chain(chain), m_rule(chain.joinRule()), m_updateFrames(std::max<Index>(1, updateFrames)),
       m_sink(std::move(sink))
 {
+    if (!asksEndedTracks(plan))
+        return;
+    // Whole frames: until a track is detected and its path is settled, and across gaps and behind its ends.
+    const Index whole = std::max(chain.longestRunUp(), chain.longestOpenPath()) + m_rule.largestGapFrames;
+    m_kept = std::make_shared<LiveFrames>(plan.frames, whole + 2 * framesBesideTrack(), widestStripHalfWidth(plan));
 }
 
 void EventFollower::tell(EventChange::State state, Event event) const
@@ -41,12 +49,86 @@ Event EventFollower::eventNow(const HmmTracker &tracker, Index frame) const
     return event;
 }
 
-void EventFollower::take(Index frame)
+void EventFollower::take(Index frame, std::span<const float> y)
 {
+    if (m_kept) {
+        if (m_lnK.empty()) { // strips begin before the first frame
+            m_firstLnK = std::max<Index>(0, frame - framesBesideTrack());
+            m_lnK.assign(std::size_t(frame - m_firstLnK), 0.0f);
+        }
+        m_kept->append(frame, y);
+        m_lnK.push_back(float(m_chain.detector().regulation().lnK));
+    }
     takeEnded();
     followTrackers(frame);
+    markBehindEnds(frame);
     joinWhatCan();
-    closeWhatCan(frame + 2 - m_chain.longestRunUp());
+    closeWhatCan(frame + 2 - m_chain.longestRunUp(), frame - framesBesideTrack());
+    if (m_kept)
+        forgetFrames();
+}
+
+/// Marks the strip of a track, as far as its frames are there.
+void EventFollower::markStrip(const Track &track)
+{
+    if (!m_kept)
+        return;
+    for (const auto &[frame, cell] : stripPlaces(track, m_kept->time().count, m_plan))
+        m_kept->mark(frame, cell);
+}
+
+/// Marks the places where ended tracks would have gone on.
+void EventFollower::markBehindEnds(Index frame)
+{
+    const auto mark = [&](const Track &track) {
+        if (frame <= track.points.back().frame + framesBesideTrack())
+            markStrip(track);
+    };
+    for (const auto &[id, track] : m_ended)
+        mark(track);
+    std::ranges::for_each(m_joined, mark);
+}
+
+/// The plan of the frames so far.
+AnalysisPlan EventFollower::planSoFar() const
+{
+    AnalysisPlan plan = m_plan;
+    plan.frames = m_kept;
+    return plan;
+}
+
+/// The event that remains of a track; nothing if its surroundings explain it.
+std::optional<Event> EventFollower::afterSecondPass(const Track &track)
+{
+    // A chain that goes on with another threshold knows the onset of its tracks, but no longer their path.
+    const bool isWhole = m_kept && track.onsetFrame >= std::max(m_kept->firstKept(), track.points.front().frame);
+    if (!isWhole)
+        return eventOf(track);
+    Analysis analysis;
+    static_cast<AnalysisPlan &>(analysis) = planSoFar();
+    analysis.firstLnK = m_firstLnK;
+    analysis.lnK.swap(m_lnK);
+    std::optional<Event> event = eventOfEnded(analysis, track);
+    analysis.lnK.swap(m_lnK);
+    return event;
+}
+
+/// Forgets frames that no track needs.
+void EventFollower::forgetFrames()
+{
+    Index first = m_kept->time().count;
+    for (const HmmTracker &tracker : m_chain.trackers())
+        first = std::min(first, tracker.track().onsetFrame);
+    for (const auto &[id, track] : m_ended)
+        first = std::min(first, track.onsetFrame);
+    for (const Track &track : m_joined)
+        first = std::min(first, track.onsetFrame);
+    m_kept->forgetBefore(first - framesBesideTrack());
+    constexpr Index together = 4096;
+    if (const Index gone = m_kept->firstKept() - framesBesideTrack() - m_firstLnK; gone >= together) {
+        m_lnK.erase(m_lnK.begin(), m_lnK.begin() + gone);
+        m_firstLnK += gone;
+    }
 }
 
 void EventFollower::followTrackers(Index frame)
@@ -57,6 +139,10 @@ void EventFollower::followTrackers(Index frame)
         const Track &track = tracker.track();
         const bool isNew = track.id > m_lastId;
         Open open = isNew ? Open{.toldFrame = frame} : std::move(m_open.at(track.id));
+        if (isNew)
+            markStrip(track);
+        for (; m_kept && open.markedPoints < track.points.size(); ++open.markedPoints)
+            m_kept->mark(track.points[open.markedPoints].frame, track.points[open.markedPoints].cell);
         open.detectFrame = track.detectFrame;
         open.onsetFrame = track.onsetFrame;
         open.earliestEnd = tracker.earliestEnd();
@@ -95,6 +181,7 @@ void EventFollower::takeEnded()
 {
     for (Track &track : m_chain.takeEnded()) {
         m_open.erase(track.id);
+        markStrip(track);
         tell(EventChange::State::Updated, eventOf(track));
         const int id = track.id;
         m_ended.emplace(id, std::move(track));
@@ -125,8 +212,9 @@ void EventFollower::joinWhatCan()
         const int id = joinTrack(m_joined, std::move(next->second), m_plan.grid(), m_rule);
         if (id != own.id) {
             m_sink({EventChange::State::Final, own, id, false});
-            tell(EventChange::State::Updated,
-                 eventOf(*std::find_if(m_joined.begin(), m_joined.end(), [id](const Track &t) { return t.id == id; })));
+            const Track &whole = *std::ranges::find(m_joined, id, &Track::id);
+            markStrip(whole);
+            tell(EventChange::State::Updated, eventOf(whole));
         }
         next = m_ended.erase(next);
     }
@@ -146,27 +234,35 @@ bool EventFollower::mayGoOn(const Track &track, Index firstOnset) const
               });
 }
 
-void EventFollower::closeWhatCan(Index firstOnset)
+void EventFollower::closeWhatCan(Index firstOnset, Index lastEnd)
 {
     std::erase_if(m_joined, [&](const Track &track) {
-        if (mayGoOn(track, firstOnset))
+        if (track.endFrame > lastEnd || mayGoOn(track, firstOnset))
             return false;
-        m_final.push_back(eventOf(track));
-        tell(EventChange::State::Final, m_final.back());
+        if (std::optional<Event> left = afterSecondPass(track)) {
+            tell(EventChange::State::Final, *left);
+            m_final.push_back(*std::move(left));
+        } else {
+            m_sink({EventChange::State::Final, eventOf(track), {}, true});
+        }
         return true;
     });
 }
 
 void EventFollower::finish()
 {
+    constexpr Index end = std::numeric_limits<Index>::max();
     takeEnded();
     joinWhatCan();
-    closeWhatCan(std::numeric_limits<Index>::max());
+    closeWhatCan(end, end);
 }
 
 std::vector<Event> EventFollower::finalEvents() const
 {
     std::vector<Event> all = m_final;
+    for (Event &event : all)
+        if (!std::isnan(event.noiseProbability)) // of the frames until it was final
+            event.noiseProbability = noiseProbability(event.statistic, planSoFar());
     std::sort(all.begin(), all.end(), [](const Event &a, const Event &b) { return a.id < b.id; });
     sortEvents(all);
     return all;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analyse/LiveFrames.h"
 #include "analyse/events.h"
 
 #include <functional>
@@ -21,14 +22,16 @@ struct EventChange {
     State state = State::Provisional;
     Event event;               ///< as known so far; for a track in progress, where it last had evidence
     std::optional<int> partOf; ///< final: continues as the event with this number
-    bool isWithdrawn = false;  ///< final: another track follows the same signal
+    bool isWithdrawn = false;  ///< final: another track follows the same signal, or its surroundings explain it
 };
 
 /// Follows a chain's tracks from frame to frame and reports each change under the number assigned at detection.
 ///
-/// Each number is reported first as provisional and last as final. A track becomes final when it has ended and no
-/// current or future track can continue it (joinTracks). The final events equal those of a run over a file with the
-/// same samples. Memory holds the tracks in progress, those that may still be continued, and the final events.
+/// Each number is reported first as provisional and last as final. A track becomes final when it has ended, no current
+/// or future track can continue it (joinTracks), and the frames behind its end are there, with which it gets its second
+/// pass (secondLook.h): ends, bands, SNR and kind, or nothing is left of it. The final events equal those of a run over
+/// a file with the same samples. Memory holds the tracks in progress, those that may still be continued, the frames
+/// around them (LiveFrames), and the final events. A track that began before the oldest frame kept has no second pass.
 class EventFollower
 {
 public:
@@ -38,7 +41,7 @@ public:
     EventFollower(const AnalysisPlan &plan, DetectionChain &chain, Index updateFrames, Sink sink);
 
     /// Call after the chain has been updated with this frame.
-    void take(Index frame);
+    void take(Index frame, std::span<const float> y);
     /// Call after the chain has finished.
     void finish();
 
@@ -52,13 +55,19 @@ private:
         Index detectFrame = 0;
         Index onsetFrame = 0;
         Index earliestEnd = 0;
-        Event heard{}; ///< as it was there
+        std::size_t markedPoints = 0; ///< of its path, for m_kept
+        Event heard{};                ///< as it was there
     };
 
     void followTrackers(Index frame);
     void takeEnded();
     void joinWhatCan();
-    void closeWhatCan(Index firstOnset);
+    void closeWhatCan(Index firstOnset, Index lastEnd);
+    std::optional<Event> afterSecondPass(const Track &track);
+    AnalysisPlan planSoFar() const;
+    void forgetFrames();
+    void markStrip(const Track &track);
+    void markBehindEnds(Index frame);
     bool isBlocked(const Track &track) const;
     bool mayGoOn(const Track &track, Index firstOnset) const;
     Event eventOf(const Track &track) const;
@@ -70,6 +79,9 @@ private:
     JoinRule m_rule;
     Index m_updateFrames;
     Sink m_sink;
+    std::shared_ptr<LiveFrames> m_kept; ///< null: tracks have no second pass
+    std::vector<float> m_lnK;           ///< of its frames, and some before
+    Index m_firstLnK = 0;
     std::map<int, Open> m_open;   ///< tracks in progress, by number
     std::map<int, Track> m_ended; ///< may continue one that has not ended yet
     std::vector<Track> m_joined;  ///< may still be continued

@@ -188,7 +188,7 @@ namespace {
                 m_result.silentCount >= 0 && std::ranges::none_of(m_y, [](float y) { return y > 0.0f; });
             m_result.silentCount = isSilent ? end - geometry.firstSample : -1;
             m_chain->update(frame, m_y, m_statistic);
-            m_follower->take(frame);
+            m_follower->take(frame, m_y);
             const std::lock_guard lock(m_mutex);
             if (m_sinks.frame)
                 m_sinks.frame(

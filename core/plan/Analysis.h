@@ -45,7 +45,8 @@ struct Analysis : AnalysisPlan {
     std::vector<Area> areas; ///< regions of raised level without a line, ordered by time (secondLook.h)
     /// For frames on several axes: the tracks found by thresholding each frame separately.
     std::vector<Track> conventional;
-    std::vector<float> lnK;               ///< per frame
+    std::vector<float> lnK;               ///< per frame, from frame `firstLnK` on
+    Index firstLnK = 0;                   ///< 0, but for the newest frames of a run that goes on
     NoiseBand lnKBand;                    ///< its range on noise, under a law that regulates it (regulation.h)
     std::vector<float> continuedFraction; ///< per frame
     /// Cells whose D lies in [i/4 - 4, (i+1)/4 - 4) nat: histogram of the data. Of a whole analysis (AnalysisDepth).

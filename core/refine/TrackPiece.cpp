@@ -27,6 +27,11 @@ namespace {
         return square > 0.0 ? cross / square : 0.0;
     }
 
+    Index plainHalfWidth(double binsPerCell)
+    {
+        return std::max(bothWaysHalfWidth(binsPerCell), levelBesideHalfWidth(binsPerCell));
+    }
+
     /// An empty strip around a piece of a path, extended by some frames at either end: along the track, or beyond
     /// its ends with its slope there.
     PathStrip stripRound(const TrackPiece &piece, Index frameCount, double binsPerCell)
@@ -53,12 +58,16 @@ namespace {
                 goesOn(points.back(), slopeOf(points, points.size() - count, count), frame);
         }
         const bool isStrong = piece.track->peakStatistic > strongNatsPerFrame * double(points.size());
-        strip.halfWidth =
-            std::max({bothWaysHalfWidth(binsPerCell), levelBesideHalfWidth(binsPerCell), isStrong ? skirtBins : 0});
+        strip.halfWidth = isStrong ? widestHalfWidth(binsPerCell) : plainHalfWidth(binsPerCell);
         return strip;
     }
 
 } // namespace
+
+Index widestHalfWidth(double binsPerCell)
+{
+    return std::max(plainHalfWidth(binsPerCell), skirtBins);
+}
 
 void addPieces(std::vector<TrackPiece> &pieces, const Track &track, Index frameCount, double binsPerCell)
 {

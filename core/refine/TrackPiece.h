@@ -25,6 +25,9 @@ struct TrackPiece {
     bool isLast() const { return to == track->points.size(); }
 };
 
+/// Half width in bins of the widest strip of a piece.
+Index widestHalfWidth(double binsPerCell);
+
 /// Appends the pieces of a track, in time, with empty strips: positions without values. `frameCount`: of all frames.
 /// The track must outlive its pieces.
 void addPieces(std::vector<TrackPiece> &pieces, const Track &track, Index frameCount, double binsPerCell);

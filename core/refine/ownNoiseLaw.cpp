@@ -252,7 +252,8 @@ double evidenceLeft(const PathStrip &strip, const OwnNoiseLaw &law)
 
 void holdAgainstOwnNoise(Analysis &analysis, const RunContext &context)
 {
-    if (!looksTwice(analysis) || !analysis.settings.family.isNone() || analysis.tracks.empty())
+    const AnalysisSettings &settings = analysis.settings;
+    if (!looksTwice(analysis) || !settings.family.isNone() || settings.noise.causal || analysis.tracks.empty())
         return;
     const OwnNoiseLaw law = ownNoiseLaw(analysis, analysis.tracks, context.part(0.0, 0.5));
     if (law.isAsAssumed())

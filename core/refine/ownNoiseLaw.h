@@ -110,8 +110,8 @@ double evidenceLeft(const PathStrip &strip, const OwnNoiseLaw &law);
 /// share, because there g(y) ≈ y; one that depends on a few high cells, or on a run of raised cells, of a kind that
 /// this noise has everywhere, loses it. If the noise is as assumed, all tracks are kept.
 ///
-/// Numbers are not changed. Nothing is done if tracks have no second pass (secondLook.h), and for families, which have
-/// their own members beside them. Throws Cancelled.
+/// Numbers are not changed. Nothing is done if tracks have no second pass (secondLook.h), for families, which have
+/// their own members beside them, and over a causal background, where the law of the whole is not known in time. Throws Cancelled.
 void holdAgainstOwnNoise(Analysis &analysis, const RunContext &context);
 
 } // namespace faintline

@@ -117,7 +117,7 @@ BothWaysModel bothWaysModel(const Analysis &analysis)
 
 void setLnK(BothWaysModel &model, const Analysis &analysis, const PathStrip &strip)
 {
-    const auto first = analysis.lnK.begin() + strip.firstFrame;
+    const auto first = analysis.lnK.begin() + (strip.firstFrame - analysis.firstLnK);
     model.lnK.assign(first, first + strip.frameCount());
 }
 

@@ -123,7 +123,8 @@ namespace {
 
         SecondLook(const Analysis &analysis, const RunContext &context, SecondView view)
             : m_analysis(analysis), m_context(context), m_frames(*analysis.frames), m_cells(m_frames.grid().size()),
-              m_geometry(m_frames.geometry()), m_likeness(m_geometry.likeness()), m_overlap(m_geometry.overlap()),
+              m_isAlone(analysis.settings.noise.causal), m_geometry(m_frames.geometry()),
+              m_likeness(m_geometry.likeness()), m_overlap(m_geometry.overlap()),
               m_explanations(std::move(view.explanations)), m_model(bothWaysModel(analysis)),
               m_tracks(std::move(view.tracks)), m_areas(std::move(view.areas)),
               m_explainedByNoise(std::move(view.explainedByNoise))
@@ -409,6 +410,8 @@ namespace {
         /// its own.
         PathStrip withoutOthers(const PathStrip &strip, const Track &track) const
         {
+            if (m_isAlone)
+                return strip;
             const Index beside = Index(std::ceil(meetingCells * m_model.binsPerCell));
             struct Meeting {
                 double own = 0.0;
@@ -494,13 +497,14 @@ namespace {
                 std::max_element(m_candidates.begin(), m_candidates.end(),
                                  [](const StretchResult &a, const StretchResult &b) { return a.gain < b.gain; });
             for (auto candidate = m_candidates.begin(); candidate != m_candidates.end(); ++candidate) {
-                if (candidate != best && candidate->evidence < m_analysis.threshold)
+                if (candidate != best && (m_isAlone || candidate->evidence < m_analysis.threshold))
                     continue;
                 if (candidate != best)
                     candidate->track.peakStatistic = candidate->evidence;
                 m_tracks.push_back(std::move(candidate->track));
                 for (ExplainedSignal &signal : candidate->signals)
-                    m_explanations.add(std::move(signal));
+                    if (!m_isAlone)
+                        m_explanations.add(std::move(signal));
             }
             m_candidates.clear();
         }
@@ -519,10 +523,14 @@ namespace {
                 const auto i = std::size_t(at);
                 if (present[i] <= least)
                     continue;
-                if (stretches.empty() || at - stretches.back().to > pauseFrames)
+                if (stretches.empty() || (!m_isAlone && at - stretches.back().to > pauseFrames))
                     stretches.push_back({at, at, 0.0, 0.0});
                 stretches.back().to = at + 1;
                 stretches.back().evidence += seen.gains[i];
+            }
+            if (m_isAlone && !stretches.empty()) { // goes on in the pieces beside
+                stretches.front().from = piece.isFirst() ? stretches.front().from : from;
+                stretches.front().to = piece.isLast() ? stretches.front().to : to;
             }
             const auto statistic = [&](Index at) { // of the path up to there
                 const Index frame = piece.strip.firstFrame + at;
@@ -583,6 +591,7 @@ namespace {
         const NormalisedFrames &m_frames;
         std::vector<std::vector<OtherPath>> m_paths; ///< of the tracks that are looked at, by frame
         Index m_cells;
+        bool m_isAlone; ///< each track is asked without regard to others
         FrameGeometry m_geometry;
         double m_likeness;
         double m_overlap;
@@ -598,7 +607,7 @@ namespace {
 
 bool canLookTwice(const AnalysisSettings &settings)
 {
-    return std::holds_alternative<SmdSettings>(settings.detector) && !settings.noise.causal
+    return std::holds_alternative<SmdSettings>(settings.detector)
            && settings.model.likelihood != LikelihoodKind::Linear;
 }
 
@@ -635,9 +644,9 @@ namespace {
 
 bool cutsOnly(const AnalysisPlan &analysis)
 {
-    return analysis.settings.track.bothWays && !analysis.settings.noise.causal
-           && analysis.settings.model.likelihood != LikelihoodKind::Linear && analysis.grid().isSpectrum()
-           && !analysis.isBank() && analysis.settings.family.isNone() && !looksTwice(analysis);
+    return analysis.settings.track.bothWays && analysis.settings.model.likelihood != LikelihoodKind::Linear
+           && analysis.grid().isSpectrum() && !analysis.isBank() && analysis.settings.family.isNone()
+           && !looksTwice(analysis);
 }
 
 std::vector<Track> cutToSignals(const Analysis &analysis, std::vector<Track> tracks, const RunContext &context)
@@ -671,7 +680,7 @@ SecondView lookTwice(const Analysis &analysis, std::vector<Track> found, std::sp
 
 SecondView lookBehind(const Analysis &analysis, SecondView view, const RunContext &context)
 {
-    if (!analysis.settings.family.isNone())
+    if (!analysis.settings.family.isNone() || analysis.settings.noise.causal)
         return view;
     SecondLook look(analysis, context, std::move(view));
     look.lookBehindAll();

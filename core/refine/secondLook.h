@@ -9,8 +9,7 @@
 
 namespace faintline {
 
-/// Whether tracks can have a second pass under these settings: paths of the sequential Markov detector in a complete
-/// recording. Not under the linear likelihood, which rescales scores for a fixed level and ignores a track's own level.
+/// Whether tracks can have a second pass under these settings: paths of the sequential Markov detector. Not under the linear likelihood, which rescales scores for a fixed level and ignores a track's own level.
 bool canLookTwice(const AnalysisSettings &settings);
 
 /// Whether completed tracks get a second pass: if it is possible and enabled, through a spectrogram, with one model.
@@ -60,6 +59,10 @@ struct SecondView {
 /// trimmed at the very end of an analysis (trimEnds.h).
 ///
 /// lookTwice takes steps 1 to 4, lookBehind the others, except for families, whose members lie beside each other.
+///
+/// Over a causal background each track is asked alone, so that a live run can ask as soon as one has ended: nothing
+/// explains anything else, steps 4 to 7 are left out, and what is present of a track is one track, with pauses, under
+/// its number.
 ///
 /// `subtracted`: lines that were removed before the frames were made (subtractLines.h). Their remainders and skirts are
 /// explained before all others, because they are not separate signals.

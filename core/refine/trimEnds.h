@@ -15,4 +15,7 @@ namespace faintline {
 /// of pieces use the untrimmed tracks, which are longer where a signal fades.
 std::vector<Track> withEndsTrimmed(std::vector<Track> tracks);
 
+/// The same for one track, which keeps its number.
+void trimEnds(Track &track);
+
 } // namespace faintline

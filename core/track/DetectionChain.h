@@ -103,6 +103,8 @@ public:
     JoinRule joinRule() const;
     /// Maximum number of frames between a track's onset and its detection, including the latter.
     Index longestRunUp() const;
+    /// Number of newest frames in which a tracker's path may still change.
+    Index longestOpenPath() const { return 2 * Index(m_settings.track.smoothingFrames) + 1; }
     /// Moves out all tracks after the end, with the pieces of each signal joined.
     std::vector<Track> takeJoinedTracks();
     const std::vector<HmmTracker> &trackers() const { return m_trackers; }

@@ -8,7 +8,10 @@
 #include "signal/formats/SigmfRecording.h"
 #include "support/recordings.h"
 
+#include <array>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <thread>
 
 using namespace faintline;
@@ -219,6 +222,42 @@ private slots:
         QVERIFY(live.events.size() >= 8);
         QCOMPARE(QByteArray::fromStdString(eventsCsv(live.plan, live.events)),
                  QByteArray::fromStdString(eventsCsv(*file, events(*file))));
+        const bool isAsked = setting != "detector.kind=pOfN"; // others are only cut to their signals
+        QVERIFY(std::ranges::all_of(live.events, [&](const Event &e) { return std::isfinite(e.snrDb) == isAsked; }));
+    }
+
+    // Bursts of noise 60 Hz wide, through each of which the detector finds paths.
+    void mostPathsThroughBurstsAreWithdrawn()
+    {
+        Random random(31, 1);
+        std::vector<float> samples(std::size_t(200.0 * heardRate));
+        random.normals(samples, 0.1f);
+        std::vector<float> slow(samples.size());
+        random.normals(slow, 1.0f);
+        double mean = 0.0;
+        for (const double begin : {60.0, 100.0, 140.0})
+            for (std::size_t i = 0; i < std::size_t(3.0 * heardRate); ++i) {
+                const std::size_t at = std::size_t(begin * heardRate) + i;
+                mean += 0.2 * (double(slow[at]) - mean);
+                samples[at] += float(0.4 * mean * std::cos(2.0 * std::numbers::pi * 0.2 * double(i)));
+            }
+        GivenSource source(format(), piecesOf(samples, {}, 9));
+        std::vector<Event> withdrawn;
+        ListenSinks sinks;
+        sinks.event = [&](const EventChange &change, const AnalysisPlan &) {
+            if (change.isWithdrawn)
+                withdrawn.push_back(change.event);
+        };
+        const ListenResult live = listen(source, settings({}), sinks);
+        const auto isInBurst = [](const Event &event) {
+            return std::ranges::any_of(std::array{60.0, 100.0, 140.0}, [&](double begin) {
+                return !event.position.empty() && event.detectSeconds > begin && event.detectSeconds < begin + 3.5
+                       && std::abs(event.position.back() - 200.0) < 100.0;
+            });
+        };
+        const auto gone = std::ranges::count_if(withdrawn, isInBurst);
+        QVERIFY(gone >= 5);
+        QVERIFY(2 * std::ranges::count_if(live.events, isInBurst) <= gone);
     }
 
     // Each number is provisional first, final last, once each, and says in between what a track says.
