@@ -104,7 +104,7 @@ def size():
 
 # What third-design.md, section 1, lists as stages after the chain, and as recursions written once more (presence: twice; that of the layers is
 # carryAlong in PathTrace).
-STAGES = ("secondLook explanation levelBeside searchBehind relink decideJointly familyLoneTeeth familyGhosts overOwnNoise overSides spreadTracks"
+STAGES = ("secondLook explanation levelBeside searchBehind relink decideJointly familyTracks overOwnNoise overSides spreadTracks"
           " otherWindows trimEnds trimOnset").split()
 PROGRAMMES = {"ForwardBackward": 1, "presence": 2, "jointPaths": 1, "PathTrace": 1}
 

@@ -158,8 +158,7 @@ namespace {
         } else if (cutsOnly(analysis) && !request.isTrial) {
             analysis.tracks = cutToSignals(analysis, std::move(analysis.tracks), context.part(0.0, 0.5));
         }
-        analysis.tracks = withoutLoneTeeth(analysis, std::move(analysis.tracks), context.part(0.5, 0.6));
-        analysis.tracks = withoutGhosts(analysis, std::move(analysis.tracks));
+        analysis.tracks = familiesOfTheirOwn(analysis, std::move(analysis.tracks), context.part(0.5, 0.6));
         if (!request.isTrial)
             holdAgainstOwnNoise(analysis, context.part(0.6, 1.0));
     }

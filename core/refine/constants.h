@@ -128,12 +128,4 @@ inline constexpr double mostSmoothedFrames = 4096.0;
 inline constexpr double subtractedEndWindows = 4.0;
 inline constexpr double subtractedSmoothWindows = 4.0; ///< period of variations that are halved
 
-// ---- families ------------------------------------------------------------------------------------------------------
-
-inline constexpr double ghostStatisticFactor = 1.5;     ///< times the statistic that coinciding members explain
-inline constexpr Index comparedFrames = 64;             ///< of those common to two tracks
-inline constexpr double chanceFamilyProbability = 0.01; ///< of strong lines that noise may turn into a family
-inline constexpr Index testedFrames = 65536;            ///< of a track
-inline constexpr double lineHalfWidthCells = 1.0;       ///< that a line occupies
-
 } // namespace faintline

@@ -25,54 +25,70 @@ namespace {
             std::copy(y.begin() + from, y.begin() + to, strip.row(at) + (from - first));
     }
 
+    void readFrom(const NormalisedFrames &frames, const std::vector<CellBox> &excluded, std::vector<PathStrip *> strips,
+                  const RunContext &context, std::string_view what)
+    {
+        std::stable_sort(strips.begin(), strips.end(),
+                         [](const PathStrip *a, const PathStrip *b) { return a->firstFrame < b->firstFrame; });
+        const Index cells = frames.grid().size();
+        const Index frameCount = frames.time().count;
+        const Index block = std::max<Index>(1, Index(readBlockBytes / sizeof(float)) / cells);
+        std::vector<PathStrip *> open;
+        std::size_t next = 0;
+        std::vector<float> values;
+        for (Index first = 0; first < frameCount && (next < strips.size() || !open.empty()); first += block) {
+            context.checkpoint(double(first) / double(frameCount), what);
+            const Index count = std::min(block, frameCount - first);
+            for (; next < strips.size() && strips[next]->firstFrame < first + count; ++next) {
+                PathStrip &strip = *strips[next];
+                strip.y.assign(std::size_t(strip.frameCount() * strip.width()),
+                               std::numeric_limits<float>::quiet_NaN());
+                open.push_back(&strip);
+            }
+            std::erase_if(open,
+                          [first](const PathStrip *strip) { return strip->firstFrame + strip->frameCount() <= first; });
+            if (open.empty())
+                continue;
+            values.resize(std::size_t(count * cells));
+            frames.read(first, count, values);
+            for (Index i = 0; i < count; ++i) {
+                const std::span<float> y = std::span(values).subspan(std::size_t(i * cells), std::size_t(cells));
+                for (const CellBox &box : excluded)
+                    box.forEachCell(frames.grid(), [&](Index cell) {
+                        if (float &power = y[std::size_t(cell)]; !std::isnan(power))
+                            power = 0.0f;
+                    });
+                for (PathStrip *strip : open)
+                    copyFrame(y, first + i - strip->firstFrame, *strip);
+            }
+        }
+    }
+
+    std::vector<PathStrip *> pointersTo(std::span<PathStrip> strips)
+    {
+        std::vector<PathStrip *> all;
+        for (PathStrip &strip : strips)
+            all.push_back(&strip);
+        return all;
+    }
+
 } // namespace
 
 void readStrips(const Analysis &analysis, std::vector<PathStrip *> strips, const RunContext &context,
                 std::string_view what)
 {
-    std::stable_sort(strips.begin(), strips.end(),
-                     [](const PathStrip *a, const PathStrip *b) { return a->firstFrame < b->firstFrame; });
-    const NormalisedFrames &frames = *analysis.frames;
-    const Index cells = frames.grid().size();
-    const Index frameCount = frames.time().count;
-    const Index block = std::max<Index>(1, Index(readBlockBytes / sizeof(float)) / cells);
-    const std::vector<CellBox> excluded = excludedBoxes(analysis);
-    std::vector<PathStrip *> open;
-    std::size_t next = 0;
-    std::vector<float> values;
-    for (Index first = 0; first < frameCount && (next < strips.size() || !open.empty()); first += block) {
-        context.checkpoint(double(first) / double(frameCount), what);
-        const Index count = std::min(block, frameCount - first);
-        for (; next < strips.size() && strips[next]->firstFrame < first + count; ++next) {
-            PathStrip &strip = *strips[next];
-            strip.y.assign(std::size_t(strip.frameCount() * strip.width()), std::numeric_limits<float>::quiet_NaN());
-            open.push_back(&strip);
-        }
-        std::erase_if(open,
-                      [first](const PathStrip *strip) { return strip->firstFrame + strip->frameCount() <= first; });
-        if (open.empty())
-            continue;
-        values.resize(std::size_t(count * cells));
-        frames.read(first, count, values);
-        for (Index i = 0; i < count; ++i) {
-            const std::span<float> y = std::span(values).subspan(std::size_t(i * cells), std::size_t(cells));
-            for (const CellBox &box : excluded)
-                box.forEachCell(frames.grid(), [&](Index cell) {
-                    if (float &power = y[std::size_t(cell)]; !std::isnan(power))
-                        power = 0.0f;
-                });
-            for (PathStrip *strip : open)
-                copyFrame(y, first + i - strip->firstFrame, *strip);
-        }
-    }
+    readFrom(*analysis.frames, excludedBoxes(analysis), std::move(strips), context, what);
 }
 
 void readStrips(const Analysis &analysis, std::span<PathStrip> strips, const RunContext &context, std::string_view what)
 {
-    std::vector<PathStrip *> all;
-    for (PathStrip &strip : strips)
-        all.push_back(&strip);
-    readStrips(analysis, std::move(all), context, what);
+    readStrips(analysis, pointersTo(strips), context, what);
+}
+
+void readStrips(const NormalisedFrames &frames, std::span<PathStrip> strips, const RunContext &context,
+                std::string_view what)
+{
+    readFrom(frames, {}, pointersTo(strips), context, what);
 }
 
 void readInTurn(const Analysis &analysis, const std::vector<PathStrip *> &strips, const RunContext &context,

@@ -17,6 +17,9 @@ void readStrips(const Analysis &analysis, std::vector<PathStrip *> strips, const
                 std::string_view what);
 void readStrips(const Analysis &analysis, std::span<PathStrip> strips, const RunContext &context,
                 std::string_view what);
+/// The same of any frames, y as it is.
+void readStrips(const NormalisedFrames &frames, std::span<PathStrip> strips, const RunContext &context,
+                std::string_view what);
 
 /// Reads as many strips at a time as 16 MiB hold, and calls take(number) for each in order, which is empty afterwards.
 void readInTurn(const Analysis &analysis, const std::vector<PathStrip *> &strips, const RunContext &context,

@@ -55,6 +55,8 @@ class tst_families : public QObject
 private slots:
     void findsOneFundamental_data();
     void findsOneFundamental();
+    void findsTwoFundamentals_data();
+    void findsTwoFundamentals();
     void findsSidebandsByTheirCarrier();
     void needsMoreThanOneMember_data();
     void needsMoreThanOneMember();
@@ -71,6 +73,7 @@ void tst_families::findsOneFundamental_data()
     QTest::newRow("faint: no line by itself") << -1.0 << false;
     QTest::newRow("strong") << 10.0 << false;
     QTest::newRow("strong, without its third multiple") << 10.0 << true;
+    QTest::newRow("very strong") << 30.0 << false;
 }
 
 /// One event at the fundamental, none at half, a third or twice of it.
@@ -90,6 +93,44 @@ void tst_families::findsOneFundamental()
     alone.spectrogram.windowSeconds = 1.0;
     if (snrDb < 0.0)
         QCOMPARE(analyse(recording, alone)->tracks.size(), std::size_t(0));
+}
+
+void tst_families::findsTwoFundamentals_data()
+{
+    QTest::addColumn<double>("ratio");
+    QTest::addColumn<double>("snrDb");
+    QTest::addColumn<double>("otherSnrDb");
+    QTest::newRow("twice") << 2.0 << 4.0 << 4.0;
+    QTest::newRow("twice, strong") << 2.0 << 25.0 << 25.0;
+    QTest::newRow("twice, faint") << 2.0 << 12.0 << 2.0;
+    QTest::newRow("three halves") << 1.5 << 0.0 << 0.0;
+    QTest::newRow("three halves, strong") << 1.5 << 25.0 << 25.0;
+    QTest::newRow("three halves, faint") << 1.5 << 12.0 << 4.0;
+}
+
+/// Two families that share members are two events, and their common fractions and multiples are none.
+void tst_families::findsTwoFundamentals()
+{
+    QFETCH(double, ratio);
+    QFETCH(double, snrDb);
+    QFETCH(double, otherSnrDb);
+    constexpr double lower = 27.4;
+    LineScene scene;
+    scene.sampleRateHz = 1000.0;
+    scene.durationSeconds = 60.0;
+    scene.seed = 41;
+    for (int k = 1; k <= 8; ++k) {
+        LineSettings line{.snrDb = snrDb, .referenceSeconds = 1.0, .startSeconds = 10.0, .frequencyHz = lower * k};
+        scene.lines.push_back(line);
+        line.snrDb = otherSnrDb;
+        line.frequencyHz *= ratio;
+        scene.lines.push_back(line);
+    }
+    const auto found = events(*analyse(std::make_shared<SimulatedRecording>(scene), familyOf(eight)));
+    QCOMPARE(found.size(), std::size_t(2));
+    for (const double hz : {lower, ratio * lower})
+        QVERIFY(
+            std::ranges::any_of(found, [hz](const Event &event) { return std::abs(event.position[0] - hz) < 0.15; }));
 }
 
 void tst_families::findsSidebandsByTheirCarrier()
