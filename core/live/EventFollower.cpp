@@ -113,6 +113,12 @@ std::optional<Event> EventFollower::afterSecondPass(const Track &track)
     return event;
 }
 
+/// Of a track that has ended but may still be continued.
+Event EventFollower::eventSoFar(const Track &track)
+{
+    return afterSecondPass(track).value_or(eventOf(track));
+}
+
 /// Forgets frames that no track needs.
 void EventFollower::forgetFrames()
 {
@@ -182,7 +188,7 @@ void EventFollower::takeEnded()
     for (Track &track : m_chain.takeEnded()) {
         m_open.erase(track.id);
         markStrip(track);
-        tell(EventChange::State::Updated, eventOf(track));
+        tell(EventChange::State::Updated, eventSoFar(track));
         const int id = track.id;
         m_ended.emplace(id, std::move(track));
     }
@@ -214,7 +220,7 @@ void EventFollower::joinWhatCan()
             m_sink({EventChange::State::Final, own, id, false});
             const Track &whole = *std::ranges::find(m_joined, id, &Track::id);
             markStrip(whole);
-            tell(EventChange::State::Updated, eventOf(whole));
+            tell(EventChange::State::Updated, eventSoFar(whole));
         }
         next = m_ended.erase(next);
     }

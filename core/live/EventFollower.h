@@ -27,11 +27,12 @@ struct EventChange {
 
 /// Follows a chain's tracks from frame to frame and reports each change under the number assigned at detection.
 ///
-/// Each number is reported first as provisional and last as final. A track becomes final when it has ended, no current
-/// or future track can continue it (joinTracks), and the frames behind its end are there, with which it gets its second
-/// pass (secondLook.h): ends, bands, SNR and kind, or nothing is left of it. The final events equal those of a run over
-/// a file with the same samples. Memory holds the tracks in progress, those that may still be continued, the frames
-/// around them (LiveFrames), and the final events. A track that began before the oldest frame kept has no second pass.
+/// Each number is reported first as provisional and last as final. A track that has ended gets its second pass (ends,
+/// bands, SNR and kind, endedTrack.h) and becomes final when no current or future track can continue it (joinTracks)
+/// and the frames behind its end are there, or is withdrawn if nothing is left of it. The final events equal those of a
+/// run over a file with the same samples. Memory holds the tracks in progress, those that may still be continued, the
+/// frames around them (LiveFrames), and the final events. A track that began before the oldest frame kept has no second
+/// pass.
 class EventFollower
 {
 public:
@@ -64,6 +65,7 @@ private:
     void joinWhatCan();
     void closeWhatCan(Index firstOnset, Index lastEnd);
     std::optional<Event> afterSecondPass(const Track &track);
+    Event eventSoFar(const Track &track);
     AnalysisPlan planSoFar() const;
     void forgetFrames();
     void markStrip(const Track &track);
