@@ -21,7 +21,7 @@ void LiveFrames::append(Index frame, std::span<const float> y)
     m_time.count = frame + 1;
     if (std::ssize(m_frames) <= m_wholeFrames)
         return;
-    Frame &older = m_frames[m_frames.size() - std::size_t(m_wholeFrames) - 1];
+    KeptFrame &older = m_frames[m_frames.size() - std::size_t(m_wholeFrames) - 1];
     thinOut(older, m_halfWidth);
     m_thinnedBytes += bytesOf(older);
     while (m_thinnedBytes > memoryShares::pathRecord)
@@ -41,10 +41,10 @@ void LiveFrames::dropFirst()
     ++m_first;
 }
 
-std::size_t LiveFrames::bytesOf(const Frame &frame)
+std::size_t LiveFrames::bytesOf(const KeptFrame &frame)
 {
     std::size_t bytes = sizeof frame;
-    for (const Cells &cells : frame.kept)
+    for (const KeptCells &cells : frame.kept)
         bytes += sizeof cells + cells.y.capacity() * sizeof(float);
     return bytes;
 }
@@ -55,7 +55,7 @@ void LiveFrames::mark(Index frame, Index cell)
         m_frames[std::size_t(frame - m_first)].marks.push_back(cell);
 }
 
-void LiveFrames::thinOut(Frame &frame, Index halfWidth)
+void LiveFrames::thinOut(KeptFrame &frame, Index halfWidth)
 {
     const std::vector<float> whole = std::move(frame.kept.front().y);
     frame.kept.clear();
@@ -81,7 +81,7 @@ void LiveFrames::read(Index first, Index count, std::span<float> out) const
     std::ranges::fill(out, std::numeric_limits<float>::quiet_NaN());
     const Index size = grid().size();
     for (Index frame = std::max(first, m_first); frame < std::min(first + count, m_time.count); ++frame)
-        for (const Cells &cells : m_frames[std::size_t(frame - m_first)].kept)
+        for (const KeptCells &cells : m_frames[std::size_t(frame - m_first)].kept)
             std::ranges::copy(cells.y, out.begin() + (frame - first) * size + cells.first);
 }
 

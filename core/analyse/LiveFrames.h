@@ -31,25 +31,25 @@ public:
     bool isObserved(Index frame) const override;
 
 private:
-    struct Cells {
+    struct KeptCells {
         Index first;
         std::vector<float> y;
     };
-    struct Frame {
-        std::vector<Cells> kept;
+    struct KeptFrame {
+        std::vector<KeptCells> kept;
         std::vector<Index> marks;
         bool isObserved;
     };
 
     void dropFirst();
-    static void thinOut(Frame &frame, Index halfWidth);
-    static std::size_t bytesOf(const Frame &frame);
+    static void thinOut(KeptFrame &frame, Index halfWidth);
+    static std::size_t bytesOf(const KeptFrame &frame);
 
     NormalisedFramesPointer m_of;
     Index m_wholeFrames;
     Index m_halfWidth;
     Index m_first = 0;
-    std::deque<Frame> m_frames;
+    std::deque<KeptFrame> m_frames;
     std::size_t m_thinnedBytes = 0;
 };
 

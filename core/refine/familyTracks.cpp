@@ -21,7 +21,7 @@ namespace {
     constexpr std::size_t batchValues = std::size_t(1) << 22; ///< of strips read in one pass
 
     /// A track, or a piece of a long one: an empty strip along its path.
-    struct Piece {
+    struct FamilyPiece {
         const Track *track;
         PathStrip path;
 
@@ -32,7 +32,7 @@ namespace {
         }
     };
 
-    void addPieces(std::vector<Piece> &pieces, const Track &track, Index halfWidth)
+    void addPieces(std::vector<FamilyPiece> &pieces, const Track &track, Index halfWidth)
     {
         const std::size_t length = track.points.size();
         const std::size_t count = (length + piecesFromFrames - 1) / piecesFromFrames;
@@ -56,7 +56,7 @@ namespace {
         }
 
         /// Of each piece, the strongest first, whether it is a family of its own.
-        std::vector<bool> answers(std::span<const Piece> pieces, const RunContext &context)
+        std::vector<bool> answers(std::span<const FamilyPiece> pieces, const RunContext &context)
         {
             std::vector<bool> result;
             const auto done = [&](std::size_t piece) { return double(piece) / double(pieces.size()); };
@@ -194,7 +194,7 @@ std::vector<Track> familiesOfTheirOwn(const Analysis &analysis, std::vector<Trac
     for (const Track &track : tracks)
         order.push_back(&track);
     std::ranges::stable_sort(order, std::greater(), &Track::peakStatistic);
-    std::vector<Piece> pieces;
+    std::vector<FamilyPiece> pieces;
     for (const Track *track : order)
         addPieces(pieces, *track, Index(std::ceil(ownPowerCells * analysis.frames->geometry().binsPerCell)));
     const std::vector<bool> answers = FamilyQuestion(analysis).answers(pieces, context);

@@ -35,6 +35,29 @@ void measureOffsets(std::vector<TrackPoint> &path, std::size_t count, Lambda lam
     }
 }
 
+/// Removes the points before a new track's onset. A path usually reaches its signal through some frames of favourable
+/// noise. The signal begins where the score begins to grow: the change point between no growth and half the path's own
+/// mean growth,
+///
+///   onset = argmin_i s(i - 1) - i·s(n - 1)/2n,   s(-1) = 0,
+///
+/// for statistics s(0) … s(n - 1); the first of equals, and 0 if no value is below 0. `points`: not empty.
+inline void trimOnset(std::vector<TrackPoint> &points)
+{
+    const double tilt = 0.5 * points.back().statistic / double(points.size());
+    std::size_t onset = 0;
+    double least = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double before = i == 0 ? 0.0 : points[i - 1].statistic;
+        const double tilted = before - tilt * double(i);
+        if (tilted < least) {
+            least = tilted;
+            onset = i;
+        }
+    }
+    points.erase(points.begin(), points.begin() + std::ptrdiff_t(onset));
+}
+
 /// Result of the two-sided second pass (refine/secondLook.h) for one point, along the last axis.
 struct SmoothedPoint {
     double position = 0.0; ///< in cells, with subcell precision
