@@ -88,10 +88,9 @@ void DetectionChain::updateAll(Index frame, std::span<const float> y, std::span<
 
 Index DetectionChain::takenTogether(Index frame, std::span<const float> y) const
 {
-    const bool isFollowing =
-        !m_trackers.empty() || std::ranges::any_of(m_boxTracks, [](int track) { return track > 0; });
     const bool forgetsExcluded = m_settings.excluded.empty() || (m_settings.resets && m_settings.forgetCells.empty());
-    if (frame < m_singlyBefore || isFollowing || !forgetsExcluded || !m_settings.feedback || m_settings.trackThreshold)
+    if (frame < m_singlyBefore || !m_trackers.empty() || !forgetsExcluded || !m_settings.feedback
+        || m_settings.trackThreshold)
         return 1;
     const Index count = std::min(m_recent.framesToScores(frame), std::ssize(y) / m_grid.size());
     return m_detector->takenTogether(y.first(std::size_t(count * m_grid.size())));
