@@ -1,12 +1,20 @@
 #include "live/EventFollower.h"
 
 #include "analyse/endedTrack.h"
+#include "base/memoryShares.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace faintline {
+
+namespace {
+
+    /// Some 180 frames of 180 000 cells.
+    constexpr std::size_t wholeFramesBytes = 4 * memoryShares::pathRecord;
+
+} // namespace
 
 EventFollower::EventFollower(const AnalysisPlan &plan, DetectionChain &chain, Index updateFrames, Sink sink)
     : m_plan(plan), m_chain(chain), m_rule(chain.joinRule()), m_updateFrames(std::max<Index>(1, updateFrames)),
@@ -15,8 +23,10 @@ EventFollower::EventFollower(const AnalysisPlan &plan, DetectionChain &chain, In
     if (!asksEndedTracks(plan))
         return;
     // Whole frames: until a track is detected and its path is settled, and across gaps and behind its ends.
-    const Index whole = std::max(chain.longestRunUp(), chain.longestOpenPath()) + m_rule.largestGapFrames;
-    m_kept = std::make_shared<LiveFrames>(plan.frames, whole + 2 * framesBesideTrack(), widestStripHalfWidth(plan));
+    const Index whole =
+        std::max(chain.longestRunUp(), chain.longestOpenPath()) + m_rule.largestGapFrames + 2 * framesBesideTrack();
+    if (std::size_t(whole * plan.grid().size()) * sizeof(float) <= wholeFramesBytes)
+        m_kept = std::make_shared<LiveFrames>(plan.frames, whole, widestStripHalfWidth(plan));
 }
 
 void EventFollower::tell(EventChange::State state, Event event) const

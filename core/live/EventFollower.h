@@ -32,7 +32,7 @@ struct EventChange {
 /// and the frames behind its end are there, or is withdrawn if nothing is left of it. The final events equal those of a
 /// run over a file with the same samples. Memory holds the tracks in progress, those that may still be continued, the
 /// frames around them (LiveFrames), and the final events. A track that began before the oldest frame kept has no second
-/// pass.
+/// pass, nor has one in frames so large that those of a track's beginning exceed 128 MiB.
 class EventFollower
 {
 public:
