@@ -1,32 +1,15 @@
 #include "live/EventFollower.h"
 
-#include "analyse/endedTrack.h"
-#include "base/memoryShares.h"
-
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace faintline {
 
-namespace {
-
-    /// Some 180 frames of 180 000 cells.
-    constexpr std::size_t wholeFramesBytes = 4 * memoryShares::pathRecord;
-
-} // namespace
-
 EventFollower::EventFollower(const AnalysisPlan &plan, DetectionChain &chain, Index updateFrames, Sink sink)
     : m_plan(plan), m_chain(chain), m_rule(chain.joinRule()), m_updateFrames(std::max<Index>(1, updateFrames)),
-      m_sink(std::move(sink))
+      m_sink(std::move(sink)),
+      m_secondPass(plan, std::max(chain.longestRunUp(), chain.longestOpenPath()) + m_rule.largestGapFrames)
 {
-    if (!asksEndedTracks(plan))
-        return;
-    // Whole frames: until a track is detected and its path is settled, and across gaps and behind its ends.
-    const Index whole =
-        std::max(chain.longestRunUp(), chain.longestOpenPath()) + m_rule.largestGapFrames + 2 * framesBesideTrack();
-    if (std::size_t(whole * plan.grid().size()) * sizeof(float) <= wholeFramesBytes)
-        m_kept = std::make_shared<LiveFrames>(plan.frames, whole, widestStripHalfWidth(plan));
 }
 
 void EventFollower::tell(EventChange::State state, Event event) const
@@ -61,90 +44,44 @@ Event EventFollower::eventNow(const HmmTracker &tracker, Index frame) const
 
 void EventFollower::take(Index frame, std::span<const float> y)
 {
-    if (m_kept) {
-        if (m_lnK.empty()) { // strips begin before the first frame
-            m_firstLnK = std::max<Index>(0, frame - framesBesideTrack());
-            m_lnK.assign(std::size_t(frame - m_firstLnK), 0.0f);
-        }
-        m_kept->append(frame, y);
-        m_lnK.push_back(float(m_chain.detector().regulation().lnK));
-    }
+    m_secondPass.take(frame, y, m_chain.detector().regulation().lnK);
     takeEnded();
     followTrackers(frame);
-    markBehindEnds(frame);
+    keepBehindEnds(frame);
     joinWhatCan();
-    closeWhatCan(frame + 2 - m_chain.longestRunUp(), frame - framesBesideTrack());
-    if (m_kept)
-        forgetFrames();
+    closeWhatCan(frame + 2 - m_chain.longestRunUp(), frame - EndedTracks::framesBeside());
+    m_secondPass.forgetBefore(firstNeeded(frame));
 }
 
-/// Marks the strip of a track, as far as its frames are there.
-void EventFollower::markStrip(const Track &track)
+/// Keeps the places where ended tracks would have gone on.
+void EventFollower::keepBehindEnds(Index frame)
 {
-    if (!m_kept)
-        return;
-    for (const auto &[frame, cell] : stripPlaces(track, m_kept->time().count, m_plan))
-        m_kept->mark(frame, cell);
-}
-
-/// Marks the places where ended tracks would have gone on.
-void EventFollower::markBehindEnds(Index frame)
-{
-    const auto mark = [&](const Track &track) {
-        if (frame <= track.points.back().frame + framesBesideTrack())
-            markStrip(track);
+    const auto keep = [&](const Track &track) {
+        if (frame <= track.points.back().frame + EndedTracks::framesBeside())
+            m_secondPass.keep(track, frame);
     };
     for (const auto &[id, track] : m_ended)
-        mark(track);
-    std::ranges::for_each(m_joined, mark);
+        keep(track);
+    std::ranges::for_each(m_joined, keep);
 }
 
-/// The plan of the frames so far.
-AnalysisPlan EventFollower::planSoFar() const
+/// The first frame of a track that is not final; the next frame if there is none.
+Index EventFollower::firstNeeded(Index frame) const
 {
-    AnalysisPlan plan = m_plan;
-    plan.frames = m_kept;
-    return plan;
-}
-
-/// The event that remains of a track; nothing if its surroundings explain it.
-std::optional<Event> EventFollower::afterSecondPass(const Track &track)
-{
-    // A chain that goes on with another threshold knows the onset of its tracks, but no longer their path.
-    const bool isWhole = m_kept && track.onsetFrame >= std::max(m_kept->firstKept(), track.points.front().frame);
-    if (!isWhole)
-        return eventOf(track);
-    Analysis analysis;
-    static_cast<AnalysisPlan &>(analysis) = planSoFar();
-    analysis.firstLnK = m_firstLnK;
-    analysis.lnK.swap(m_lnK);
-    std::optional<Event> event = eventOfEnded(analysis, track);
-    analysis.lnK.swap(m_lnK);
-    return event;
+    Index first = frame + 1;
+    for (const auto &[id, open] : m_open)
+        first = std::min(first, open.onsetFrame);
+    for (const auto &[id, track] : m_ended)
+        first = std::min(first, track.onsetFrame);
+    for (const Track &track : m_joined)
+        first = std::min(first, track.onsetFrame);
+    return first;
 }
 
 /// Of a track that has ended but may still be continued.
 Event EventFollower::eventSoFar(const Track &track)
 {
-    return afterSecondPass(track).value_or(eventOf(track));
-}
-
-/// Forgets frames that no track needs.
-void EventFollower::forgetFrames()
-{
-    Index first = m_kept->time().count;
-    for (const HmmTracker &tracker : m_chain.trackers())
-        first = std::min(first, tracker.track().onsetFrame);
-    for (const auto &[id, track] : m_ended)
-        first = std::min(first, track.onsetFrame);
-    for (const Track &track : m_joined)
-        first = std::min(first, track.onsetFrame);
-    m_kept->forgetBefore(first - framesBesideTrack());
-    constexpr Index together = 4096;
-    if (const Index gone = m_kept->firstKept() - framesBesideTrack() - m_firstLnK; gone >= together) {
-        m_lnK.erase(m_lnK.begin(), m_lnK.begin() + gone);
-        m_firstLnK += gone;
-    }
+    return m_secondPass.eventOf(track).value_or(eventOf(track));
 }
 
 void EventFollower::followTrackers(Index frame)
@@ -156,9 +93,9 @@ void EventFollower::followTrackers(Index frame)
         const bool isNew = track.id > m_lastId;
         Open open = isNew ? Open{.toldFrame = frame} : std::move(m_open.at(track.id));
         if (isNew)
-            markStrip(track);
-        for (; m_kept && open.markedPoints < track.points.size(); ++open.markedPoints)
-            m_kept->mark(track.points[open.markedPoints].frame, track.points[open.markedPoints].cell);
+            m_secondPass.keep(track);
+        for (; open.keptPoints < track.points.size(); ++open.keptPoints)
+            m_secondPass.keep(track.points[open.keptPoints].frame, track.points[open.keptPoints].cell);
         open.detectFrame = track.detectFrame;
         open.onsetFrame = track.onsetFrame;
         open.earliestEnd = tracker.earliestEnd();
@@ -197,7 +134,7 @@ void EventFollower::takeEnded()
 {
     for (Track &track : m_chain.takeEnded()) {
         m_open.erase(track.id);
-        markStrip(track);
+        m_secondPass.keep(track);
         tell(EventChange::State::Updated, eventSoFar(track));
         const int id = track.id;
         m_ended.emplace(id, std::move(track));
@@ -229,7 +166,7 @@ void EventFollower::joinWhatCan()
         if (id != own.id) {
             m_sink({EventChange::State::Final, own, id, false});
             const Track &whole = *std::ranges::find(m_joined, id, &Track::id);
-            markStrip(whole);
+            m_secondPass.keep(whole);
             tell(EventChange::State::Updated, eventSoFar(whole));
         }
         next = m_ended.erase(next);
@@ -255,7 +192,7 @@ void EventFollower::closeWhatCan(Index firstOnset, Index lastEnd)
     std::erase_if(m_joined, [&](const Track &track) {
         if (track.endFrame > lastEnd || mayGoOn(track, firstOnset))
             return false;
-        if (std::optional<Event> left = afterSecondPass(track)) {
+        if (std::optional<Event> left = m_secondPass.eventOf(track)) {
             tell(EventChange::State::Final, *left);
             m_final.push_back(*std::move(left));
         } else {
@@ -267,18 +204,16 @@ void EventFollower::closeWhatCan(Index firstOnset, Index lastEnd)
 
 void EventFollower::finish()
 {
-    constexpr Index end = std::numeric_limits<Index>::max();
     takeEnded();
     joinWhatCan();
-    closeWhatCan(end, end);
+    closeWhatCan(std::numeric_limits<Index>::max(), std::numeric_limits<Index>::max());
 }
 
 std::vector<Event> EventFollower::finalEvents() const
 {
     std::vector<Event> all = m_final;
     for (Event &event : all)
-        if (!std::isnan(event.noiseProbability)) // of the frames until it was final
-            event.noiseProbability = noiseProbability(event.statistic, planSoFar());
+        m_secondPass.complete(event);
     std::sort(all.begin(), all.end(), [](const Event &a, const Event &b) { return a.id < b.id; });
     sortEvents(all);
     return all;

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "analyse/LiveFrames.h"
-#include "analyse/events.h"
+#include "analyse/EndedTracks.h"
 
 #include <functional>
 #include <map>
@@ -28,11 +27,10 @@ struct EventChange {
 /// Follows a chain's tracks from frame to frame and reports each change under the number assigned at detection.
 ///
 /// Each number is reported first as provisional and last as final. A track that has ended gets its second pass (ends,
-/// bands, SNR and kind, endedTrack.h) and becomes final when no current or future track can continue it (joinTracks)
-/// and the frames behind its end are there, or is withdrawn if nothing is left of it. The final events equal those of a
-/// run over a file with the same samples. Memory holds the tracks in progress, those that may still be continued, the
-/// frames around them (LiveFrames), and the final events. A track that began before the oldest frame kept has no second
-/// pass, nor has one in frames so large that those of a track's beginning exceed 128 MiB.
+/// bands, SNR and kind, EndedTracks) and becomes final when no current or future track can continue it (joinTracks) and
+/// the frames behind its end are there, or is withdrawn if nothing is left of it. The final events equal those of a run
+/// over a file with the same samples. Memory holds the tracks in progress, those that may still be continued, the frames
+/// that their second pass needs, and the final events.
 class EventFollower
 {
 public:
@@ -56,23 +54,20 @@ private:
         Index detectFrame = 0;
         Index onsetFrame = 0;
         Index earliestEnd = 0;
-        std::size_t markedPoints = 0; ///< of its path, for m_kept
-        Event heard{};                ///< as it was there
+        std::size_t keptPoints = 0; ///< of its path, by m_secondPass
+        Event heard{};              ///< as it was there
     };
 
     void followTrackers(Index frame);
     void takeEnded();
     void joinWhatCan();
     void closeWhatCan(Index firstOnset, Index lastEnd);
-    std::optional<Event> afterSecondPass(const Track &track);
-    Event eventSoFar(const Track &track);
-    AnalysisPlan planSoFar() const;
-    void forgetFrames();
-    void markStrip(const Track &track);
-    void markBehindEnds(Index frame);
+    void keepBehindEnds(Index frame);
+    Index firstNeeded(Index frame) const;
     bool isBlocked(const Track &track) const;
     bool mayGoOn(const Track &track, Index firstOnset) const;
     Event eventOf(const Track &track) const;
+    Event eventSoFar(const Track &track);
     Event eventNow(const HmmTracker &tracker, Index frame) const;
     void tell(EventChange::State state, Event event) const;
 
@@ -81,9 +76,7 @@ private:
     JoinRule m_rule;
     Index m_updateFrames;
     Sink m_sink;
-    std::shared_ptr<LiveFrames> m_kept; ///< null: tracks have no second pass
-    std::vector<float> m_lnK;           ///< of its frames, and some before
-    Index m_firstLnK = 0;
+    EndedTracks m_secondPass;
     std::map<int, Open> m_open;   ///< tracks in progress, by number
     std::map<int, Track> m_ended; ///< may continue one that has not ended yet
     std::vector<Track> m_joined;  ///< may still be continued
