@@ -92,8 +92,9 @@ namespace {
         return sum / quantiles;
     }
 
-    Explanations explanationsOf(const NormalisedFrames &frames)
+    Explanations explanationsOf(const Analysis &analysis)
     {
+        const NormalisedFrames &frames = *analysis.frames;
         /// The window's leakage over a distance in bins that is known to `error` cells.
         const auto around = [geometry = frames.geometry()](double (*leakage)(WindowShape, double), double error) {
             return [=](double bins) {
@@ -102,7 +103,8 @@ namespace {
                                  leakage(geometry.window, cells), leakage(geometry.window, cells + error)});
             };
         };
-        return {frames.grid().size(), around(leakageBound, 0.0), around(leakageAt, 0.02)};
+        const bool isAlone = analysis.settings.noise.causal; // nothing is explained: no tables
+        return {isAlone ? 0 : frames.grid().size(), around(leakageBound, 0.0), around(leakageAt, 0.02)};
     }
 
     std::vector<PathStrip *> stripsOf(std::vector<TrackPiece> &pieces)
@@ -117,7 +119,7 @@ namespace {
     {
     public:
         SecondLook(const Analysis &analysis, const RunContext &context)
-            : SecondLook(analysis, context, {{}, {}, {}, explanationsOf(*analysis.frames)})
+            : SecondLook(analysis, context, {{}, {}, {}, explanationsOf(analysis)})
         {
         }
 
