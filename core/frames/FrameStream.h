@@ -7,7 +7,8 @@
 
 namespace faintline {
 
-/// Reads frames in order, in blocks of about 1 MiB, or of 16 frames if they take less than 16 MiB, one block ahead on another thread if there is a spare one.
+/// Reads frames in order, in blocks of about 1 MiB, or of up to 16 frames if they take at most 16 MiB, one block ahead on
+/// another thread if there is a spare one.
 class FrameStream
 {
 public:

@@ -111,7 +111,8 @@ double evidenceLeft(const PathStrip &strip, const OwnNoiseLaw &law);
 /// this noise has everywhere, loses it. If the noise is as assumed, all tracks are kept.
 ///
 /// Numbers are not changed. Nothing is done if tracks have no second pass (secondLook.h), for families, which have
-/// their own members beside them, and over a causal background, where the law of the whole is not known in time. Throws Cancelled.
+/// their own members beside them, and over a causal background, where the law of the whole is not known in time. Throws
+/// Cancelled.
 void holdAgainstOwnNoise(Analysis &analysis, const RunContext &context);
 
 } // namespace faintline
