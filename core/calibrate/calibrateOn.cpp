@@ -51,9 +51,11 @@ namespace {
         const bool isLine = shape == TailShape::Line;
         const double expected = isLine ? expectedTailMaxima / 3.0 : expectedTailMaxima;
         const double scale = std::max(1.0, expected / (ratesOfLine.front() * cellFrames));
-        for (const double rate : isLine                       ? ratesOfLine
-                                 : shape == TailShape::Blocks ? ratesOfBlocks
-                                                              : ratesBeforeSplitting)
+        const std::span<const double> rates = isLine ? std::span<const double>(ratesOfLine)
+                                              : shape == TailShape::Blocks
+                                                  ? std::span<const double>(ratesOfBlocks)
+                                                  : std::span<const double>(ratesBeforeSplitting);
+        for (const double rate : rates)
             thresholds.push_back(quantile(upperMaximaQuantile)
                                  + std::log(-std::log(upperMaximaQuantile) / perMaximum / (rate * scale)) / theta);
         return thresholds;
@@ -117,10 +119,11 @@ namespace {
         if (levels.empty())
             throw Error("detector", "exceeds thresholds on noise too rarely to be calibrated");
         const auto offset = [&](double level) {
-            if (levels.size() == 1)
-                return offsets.front();
-            const double fraction = std::clamp((level - levels.front()) / (levels.back() - levels.front()), 0.0, 1.0);
-            return offsets.front() + fraction * (offsets.back() - offsets.front());
+            const auto above = std::ranges::upper_bound(levels, level) - levels.begin();
+            if (above == 0 || above == std::ssize(levels))
+                return above == 0 ? offsets.front() : offsets.back();
+            const auto i = std::size_t(above - 1);
+            return std::lerp(offsets[i], offsets[i + 1], (level - levels[i]) / (levels[i + 1] - levels[i]));
         };
         const double anchor = levels.back();
         const double own = 1.0 / std::sqrt(events);
@@ -250,9 +253,8 @@ std::shared_ptr<const Calibration> calibrateOn(const NoiseSegments &noise, const
         [&](int number) {
             AnalysisPlan own = trial;
             own.frames = noise.segment(number);
-            const bool leavesOutFirst =
-                !rare.isEmpty() && (effort.isFirstEstimate || number % crowdedEverySegments != 0);
-            return countEvents(own, thresholds, leavesOutFirst);
+            const bool onlyAtLast = !rare.isEmpty() && (effort.isFirstEstimate || number % crowdedEverySegments != 0);
+            return countEvents(own, thresholds, onlyAtLast);
         },
         [&](const EventCounts &part) {
             add(part, counts);

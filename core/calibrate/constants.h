@@ -40,10 +40,10 @@ inline constexpr double lowerMaximaQuantile = 0.5;
 inline constexpr double upperMaximaQuantile = 0.95;
 inline constexpr std::size_t fewestTailMaxima = 40; ///< for which that is possible
 /// Block maxima above the thresholds at which events are counted, per cell and frame; after clustering and inhibition
-/// a quarter of them are events. A tail from splitting is counted where events crowd each other out, in a tenth of the
-/// noise, and where they do not (800 and 400 events in the usual 8·10⁷ cells × frames). One that is extrapolated along a
-/// line is counted at two thresholds far apart.
-inline constexpr std::array<double, 2> ratesBeforeSplitting{1e-3, 2e-5};
+/// a quarter of them are events. A tail from splitting is counted where events crowd each other out, at two thresholds in
+/// a tenth of the noise, and where they do not (2500, 600 and 400 events in the usual 8·10⁷ cells × frames). One that is
+/// extrapolated along a line is counted at two thresholds far apart.
+inline constexpr std::array<double, 3> ratesBeforeSplitting{1e-3, 1.4e-4, 2e-5};
 /// At the end of a block of some hundred frames; a rate of 1e-3 a frame would be a tenth of all cells.
 inline constexpr std::array<double, 2> ratesOfBlocks{1e-4, 2e-5};
 inline constexpr std::array<double, 2> ratesOfLine{2e-5, 2.5e-6};

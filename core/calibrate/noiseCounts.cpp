@@ -102,12 +102,13 @@ NoiseTail measureTail(const NormalisedFrames &noise, Detector &detector, const S
     return tail;
 }
 
-EventCounts countEvents(const AnalysisPlan &plan, std::span<const double> thresholds, bool leavesOutFirst)
+EventCounts countEvents(const AnalysisPlan &plan, std::span<const double> thresholds, bool onlyAtLast)
 {
     AnalysisPlan own = plan;
     std::vector<std::unique_ptr<DetectionChain>> chains;
-    for (std::size_t i = leavesOutFirst ? 1 : 0; i < thresholds.size(); ++i) {
-        own.threshold = thresholds[i];
+    const std::size_t leftOut = onlyAtLast ? thresholds.size() - 1 : 0;
+    for (const double threshold : thresholds.subspan(leftOut)) {
+        own.threshold = threshold;
         chains.push_back(makeChain(own, makePathDetector(own), false));
     }
     const NormalisedFrames &noise = *plan.frames;
@@ -115,9 +116,7 @@ EventCounts countEvents(const AnalysisPlan &plan, std::span<const double> thresh
         for (const auto &chain : chains)
             chain->updateAll(first, y, statistic);
     });
-    EventCounts counts;
-    if (leavesOutFirst)
-        counts = {{0.0}, {0.0}};
+    EventCounts counts{std::vector(leftOut, 0.0), std::vector(leftOut, 0.0)};
     for (const auto &chain : chains) {
         chain->finish();
         counts.events.push_back(double(std::ranges::count_if(

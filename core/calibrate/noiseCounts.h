@@ -39,9 +39,9 @@ StatisticLevels statisticLevelsOf(const NormalisedFrames &noise, Detector &detec
 
 NoiseTail measureTail(const NormalisedFrames &noise, Detector &detector, const StatisticLevels &levels);
 
-/// Counts the tracks of the plan's chain at each of these thresholds, after the settling frames. `leavesOutFirst`: none
-/// at the first one, which most events cross, so that it costs most.
-EventCounts countEvents(const AnalysisPlan &plan, std::span<const double> thresholds, bool leavesOutFirst);
+/// Counts the tracks of the plan's chain at each of these thresholds, after the settling frames. `onlyAtLast`: none at
+/// the others, which more events cross, so that they cost more.
+EventCounts countEvents(const AnalysisPlan &plan, std::span<const double> thresholds, bool onlyAtLast);
 
 void add(const NoiseTail &part, NoiseTail &whole);
 

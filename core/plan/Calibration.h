@@ -17,8 +17,8 @@ namespace faintline {
 ///
 /// S: excursions of the statistic on noise of known level, followed by multilevel splitting (`RareRates`) as far as
 /// needed; a straight line is not used, because near the 50 % rule the tail is curved. δ: ratio of the chain's count to
-/// S at two thresholds, one where events crowd each other out (some 800, in a tenth of the noise) and one where they do
-/// not (some 400); linear between them, constant beyond. Above the second one S gives the shape and the count the
+/// S at three thresholds, two where events crowd each other out (some 2500 and 600, in a tenth of the noise) and one where
+/// they do not (some 400); linear between them, constant beyond. Above the last one S gives the shape and the count the
 /// height. Oracle: brute force over 200 hours (docs/performance.md).
 ///
 /// Detectors that decide at the ends of blocks have S from blocks under tilted laws (`measureBlockRates`). Without S

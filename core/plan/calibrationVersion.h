@@ -11,6 +11,6 @@ namespace faintline {
 /// is no reason. Then make the shipped calibrations again, which takes about ten minutes of processor time:
 ///
 ///   faintline-cli calibrate --shipped resources/calibrations
-inline constexpr int calibrationVersion = 1;
+inline constexpr int calibrationVersion = 2;
 
 } // namespace faintline
