@@ -11,6 +11,7 @@
 #include "refine/subtractLines.h"
 
 #include <cstdio>
+#include <set>
 
 namespace faintline::cli {
 
@@ -99,6 +100,21 @@ namespace {
                         positionText(area.high, analysis.grid().axes.back()).c_str(), unit.c_str(), area.levelDb);
     }
 
+    /// ", 11 of them overtones of 4 calls", or nothing.
+    std::string callWords(const std::vector<Event> &events)
+    {
+        std::set<int> calls;
+        std::size_t overtones = 0;
+        for (const Event &event : events)
+            if (event.call != 0) {
+                calls.insert(event.call);
+                ++overtones;
+            }
+        return calls.empty() ? std::string()
+                             : ", " + std::to_string(overtones) + " of them overtones of "
+                                   + std::to_string(calls.size()) + (calls.size() == 1 ? " call" : " calls");
+    }
+
 } // namespace
 
 void printSummary(const Analysis &analysis, const std::vector<std::string> &notes)
@@ -113,7 +129,7 @@ void printSummary(const Analysis &analysis, const std::vector<std::string> &note
         std::printf("%s\n", words.c_str());
     printThreshold(analysis);
     printWarnings(analysis, notes);
-    std::printf("%zu event(s)\n", found.size());
+    std::printf("%zu event(s)%s\n", found.size(), callWords(found).c_str());
     for (const Event &event : found)
         printEvent(analysis, event);
     if (const std::string words = unreportedWords(analysis); !words.empty())

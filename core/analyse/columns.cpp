@@ -116,9 +116,12 @@ std::vector<TableColumn<Event>> eventColumns(const Grid &grid, OptionalColumns o
             "Probability that noise alone gives an event as significant as this one in this recording");
         add(columnOf("window_s", &Event::windowSeconds), "Window", "s",
             "Length of the window that found the event: the displayed one, or another one that sees it better");
-        if (optional.kinds)
+        if (optional.kinds) {
             for (const SignalKind kind : {SignalKind::Keyed, SignalKind::Spread})
                 add({nameOf(kind), [kind](const Event &e) { return e.kind == kind; }, false});
+            add(columnOf("call", &Event::call), "Call", "",
+                "Number of the strongest event among the overtones of one voice, which move together");
+        }
     }
     keyRank = 3;
     if (optional.subtracted)

@@ -3,6 +3,7 @@
 #include "analyse/constants.h"
 #include "base/Error.h"
 #include "base/logmath.h"
+#include "refine/calls.h"
 
 #include <algorithm>
 #include <cmath>
@@ -118,10 +119,12 @@ std::vector<Event> events(const AnalysisPlan &plan, const std::vector<Track> &tr
 {
     const Axis &time = plan.time();
     const Grid &grid = plan.grid();
+    const std::vector<int> calls = callsOf(tracks, plan);
     std::vector<Event> result;
     for (const Track &track : tracks) {
         Event event;
         event.id = track.id;
+        event.call = calls[result.size()];
         event.onsetSeconds = time.value(double(track.onsetFrame));
         event.detectSeconds = time.value(double(track.detectFrame));
         if (track.confirmFrame >= 0)

@@ -45,6 +45,8 @@ struct Event {
     /// T_FT of the window that found it: the frames' own, or another one (otherWindows.h).
     double windowSeconds = std::numeric_limits<double>::quiet_NaN();
     SignalKind kind = SignalKind::Unknown;
+    /// Number of the strongest event among the overtones of one voice (calls.h), if it is one of them; else 0.
+    int call = 0;
 };
 
 /// A burst, a cloud or another signal that is not a line, in physical units; derived from an area.

@@ -43,6 +43,7 @@ Event completeEvent(std::size_t axes)
     event.modelChanges = {{1.0, 1}};
     event.snrDb = event.bandWidth = event.noiseProbability = event.windowSeconds = 0.0;
     event.kind = SignalKind::Keyed;
+    event.call = 3;
     return event;
 }
 

@@ -21,7 +21,7 @@ class Survey(InFolder):
 
     def assert_same_rows(self, database, table, order, name):
         columns, expected = self.rows_of_file(name)
-        kinds = len(set(columns) & {"keyed", "spread"})  # behind the columns that surveys have
+        kinds = len(set(columns) & {"keyed", "spread", "call"})  # behind the columns that surveys have
         columns, expected = columns[:len(columns) - kinds], [row[:len(row) - kinds] for row in expected]
         query = f"SELECT {', '.join(columns)} FROM {table} ORDER BY {order}"
         rows = [tuple(map(float, row)) for row in database.execute(query)]

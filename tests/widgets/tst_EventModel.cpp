@@ -128,6 +128,8 @@ private slots:
         strong.windowSeconds = 16.0;
         weak.kind = SignalKind::Line;
         strong.kind = SignalKind::Spread;
+        weak.call = 2;
+        strong.call = 10;
         weak.driftPerSecond = -3.0;
         strong.driftPerSecond = -0.02;
         weak.isConfirmed = true;

@@ -297,6 +297,22 @@ private slots:
         QVERIFY(m_table->card().text().startsWith("Event 2, keyed"));
     }
 
+    void callsWhereThereAreSome()
+    {
+        std::vector<Event> events{test::event(1, 1.0, 2.0, 100.0), test::event(2, 1.5, 3.0, 200.0),
+                                  test::event(3, 1.5, 3.0, 400.0)};
+        m_table->setEvents(events);
+        QVERIFY(m_table->table()->isColumnHidden(EventModel::Call));
+        events[1].call = events[2].call = 3;
+        m_table->setEvents(events);
+        QVERIFY(!m_table->table()->isColumnHidden(EventModel::Call));
+        const auto cell = [&](int row) {
+            return m_table->table()->model()->index(row, EventModel::Call).data().toString();
+        };
+        QCOMPARE(cell(0), QString());
+        QCOMPARE(cell(1), QString("3"));
+    }
+
 private:
     std::unique_ptr<EventTable> m_table;
     std::vector<int> m_activated;

@@ -17,6 +17,7 @@ namespace {
     {
         static const QHash<QString, Quantity> table{
             {"id", [](const Event &e) { return double(e.id); }},
+            {"call", [](const Event &e) { return double(e.call); }},
             {"t", [](const Event &e) { return e.onsetSeconds; }},
             {"onset", [](const Event &e) { return e.onsetSeconds; }},
             {"detect", [](const Event &e) { return e.detectSeconds; }},

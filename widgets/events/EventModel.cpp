@@ -51,7 +51,7 @@ EventModel::EventModel(QObject *parent) : ColumnModel(parent)
 ShownColumn<Event> EventModel::ofFile(const char *name, std::function<QString(const Event &)> text,
                                       const std::optional<QString> &otherUnit) const
 {
-    static const auto columns = eventColumns(Grid(), {.secondPass = true});
+    static const auto columns = eventColumns(Grid(), {.secondPass = true, .kinds = true});
     const TableColumn<Event> &column = *std::ranges::find(columns, name, &TableColumn<Event>::name);
     const QString heading = QString::fromStdString(column.heading);
     const QString unit = otherUnit.value_or(QString::fromStdString(column.unit));
@@ -128,6 +128,9 @@ std::vector<ShownColumn<Event>> EventModel::columns() const
     snr.key = [](E event) { return event.snrDb; };
     ShownColumn<Event> id = ofFile("event", [this](E event) { return idText(event); });
     id.key = [](E event) { return event.id; };
+    ShownColumn<Event> call =
+        ofFile("call", [](E event) { return event.call == 0 ? QString() : QString::number(event.call); });
+    call.key = [](E event) { return event.call; };
 
     std::vector<ShownColumn<Event>> all{
         id,
@@ -154,6 +157,7 @@ std::vector<ShownColumn<Event>> EventModel::columns() const
          .alignment = Qt::AlignHCenter,
          .tip =
              tr("Line, keyed (a line with two pauses or more), or spread: wider than a line, followed by its centre")},
+        call,
         {.heading = tr("Onset (UTC)"),
          .text =
              [this](E event) {
@@ -316,6 +320,11 @@ bool EventModel::hasWindows() const
 bool EventModel::hasKinds() const
 {
     return std::ranges::any_of(m_events, [](const Event &event) { return event.kind > SignalKind::Line; });
+}
+
+bool EventModel::hasCalls() const
+{
+    return std::ranges::any_of(m_events, [](const Event &event) { return event.call != 0; });
 }
 
 bool EventModel::hasClasses() const

@@ -43,6 +43,7 @@ public:
         Chance, ///< of being noise, if it is known of some events
         Window, ///< if events were found with different windows
         Kind,   ///< if not all are lines
+        Call,   ///< if some are overtones of one voice
         Utc,    ///< onset, if the recording's start time is known
         Radio,  ///< frequency including the receiver's centre, if there is one
         End,
@@ -74,6 +75,8 @@ public:
     bool hasWindows() const;
     /// Whether some events are of another kind than lines.
     bool hasKinds() const;
+    /// Whether some events are overtones of one voice.
+    bool hasCalls() const;
     /// Whether any event has a class.
     bool hasClasses() const;
     bool hasRadio() const { return m_scales.centreHz != 0.0; }

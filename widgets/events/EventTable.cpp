@@ -28,10 +28,11 @@ EventTable::EventTable(QWidget *parent)
       m_unmatched(new QListWidget)
 {
     m_filter->setPlaceholderText(tr("Filter: f>1000 stat>25 !rejected"));
-    m_filter->setToolTip(
-        tr("Conditions that must all hold: open, confirmed, tentative, accepted, rejected, unreviewed, merged, noted, line, "
-           "keyed, spread, negated by a leading !; id, t, detect, confirm, end, dur, f, drift, stat, snr compared by <, >, =, <=, >=; "
-           "class=NAME, without spaces"));
+    m_filter->setToolTip(tr("Conditions that must all hold: open, confirmed, tentative, accepted, rejected, "
+                            "unreviewed, merged, noted, line, "
+                            "keyed, spread, negated by a leading !; id, call, t, detect, confirm, end, dur, f, drift, "
+                            "stat, snr compared by <, >, =, <=, >=; "
+                            "class=NAME, without spaces"));
     m_filter->setClearButtonEnabled(true);
     m_filter->setAccessibleName(tr("Filter events"));
     connect(m_filter, &QLineEdit::textChanged, this, &EventTable::applyFilter);
@@ -111,7 +112,7 @@ void EventTable::setUpTable()
     m_table->installEventFilter(this);
     for (const int column :
          {EventModel::Bearing, EventModel::ThirdAxis, EventModel::FourthAxis, EventModel::Chance, EventModel::Window,
-          EventModel::Kind, EventModel::Utc, EventModel::Radio, EventModel::Class})
+          EventModel::Kind, EventModel::Call, EventModel::Utc, EventModel::Radio, EventModel::Class})
         m_table->setColumnHidden(column, true);
     connect(m_table, &QTableView::clicked, this, [this](const QModelIndex &index) {
         if (selectedEvents().size() == 1) // otherwise several are being selected
@@ -131,6 +132,7 @@ void EventTable::setEvents(const std::vector<Event> &events)
     m_table->setColumnHidden(EventModel::Chance, !m_model->hasChances());
     m_table->setColumnHidden(EventModel::Window, !m_model->hasWindows());
     m_table->setColumnHidden(EventModel::Kind, !m_model->hasKinds());
+    m_table->setColumnHidden(EventModel::Call, !m_model->hasCalls());
     if (isFirst && !events.empty()) {
         m_table->resizeColumnsToContents();
         narrowColumns();
@@ -158,7 +160,7 @@ void EventTable::orderColumns()
     std::vector<int> order;
     if (!m_model->hasBearing())
         order = {EventModel::Id,  EventModel::Frequency, EventModel::Snr,    EventModel::Onset, EventModel::Drift,
-                 EventModel::End, EventModel::Chance,    EventModel::Window, EventModel::Kind};
+                 EventModel::End, EventModel::Chance,    EventModel::Window, EventModel::Kind,  EventModel::Call};
     for (int column = 0; column < EventModel::ColumnCount; ++column)
         if (std::ranges::find(order, column) == order.end())
             order.push_back(column);

@@ -1,0 +1,157 @@
+#include "refine/calls.h"
+#include "support/test.h"
+
+#include "base/Random.h"
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+using namespace faintline;
+
+namespace {
+
+constexpr Index callFrames = 240;
+constexpr double callBandHz = 4000.0;
+constexpr double callBinHz = 2.0;
+
+/// A plan with frames of 0 to 4 kHz in bins of 2 Hz, and a threshold of 12 nat.
+AnalysisPlan planOfCalls(double lowestHz = 0.0)
+{
+    AnalysisPlan result;
+    const Grid grid{{{"frequency", "Hz", lowestHz, callBinHz, Index(callBandHz / callBinHz), false}}};
+    result.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 0.01, 1, false}, grid,
+                                                 std::vector<float>(std::size_t(grid.size()), 1.0f));
+    result.threshold = 12.0;
+    return result;
+}
+
+using Way = std::function<double(Index frame)>; ///< Hz
+
+/// A track along a way with errors of a fifth of a bin, alike over six frames.
+Track trackAlong(const Way &way, int id, Index first = 0, Index count = callFrames)
+{
+    Track track;
+    track.id = id;
+    track.peakStatistic = 1000.0 - id;
+    Random random(std::uint64_t(id), 0);
+    double error = 0.0;
+    for (Index frame = first; frame < first + count; ++frame) {
+        if ((frame - first) % 6 == 0)
+            error = 0.2 * random.normal();
+        const double bin = way(frame) / callBinHz + error;
+        track.points.push_back({frame, Index(std::lround(bin))});
+        track.smoothed.push_back({bin, float(bin - 0.33), float(bin + 0.33), 1.0f, 10.0f});
+    }
+    track.takeEndsOfPoints();
+    return track;
+}
+
+/// A voice of `hz` with a vibrato.
+Way voice(double hz, double framesPerTurn, double number = 1.0)
+{
+    return [=](Index frame) {
+        return number * hz * (1.0 + 0.03 * std::sin(2.0 * std::numbers::pi * double(frame) / framesPerTurn));
+    };
+}
+
+Way steady(double hz)
+{
+    return [=](Index) { return hz; };
+}
+
+Way rising(double hz, double hzPerFrame)
+{
+    return [=](Index frame) { return hz + hzPerFrame * double(frame); };
+}
+
+} // namespace
+
+/// Overtones of one voice are one call.
+class tst_calls : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void overtonesOfTwoVoices()
+    {
+        std::vector<Track> tracks;
+        int id = 0;
+        for (const int number : {2, 1, 3, 5})
+            tracks.push_back(trackAlong(voice(310.0, 55.0, number), ++id));
+        for (const int number : {1, 2})
+            tracks.push_back(trackAlong(voice(731.0, 38.0, number), ++id));
+        tracks.push_back(trackAlong(voice(1201.0, 23.0), ++id));
+        QCOMPARE(callsOf(tracks, planOfCalls()), (std::vector<int>{1, 1, 1, 1, 5, 5, 0}));
+    }
+
+    void numberIsThatOfTheStrongest()
+    {
+        std::vector<Track> tracks{trackAlong(voice(310.0, 55.0), 1), trackAlong(voice(310.0, 55.0, 2.0), 2),
+                                  trackAlong(voice(310.0, 55.0, 3.0), 3)};
+        tracks[2].peakStatistic = 5000.0;
+        QCOMPARE(callsOf(tracks, planOfCalls()), (std::vector<int>{3, 3, 3}));
+    }
+
+    void others_data()
+    {
+        QTest::addColumn<Way>("lower");
+        QTest::addColumn<Way>("upper");
+        QTest::newRow("steady lines of 1 : 2") << steady(500.0) << steady(1000.0);
+        QTest::newRow("1 : 2 and straight") << rising(500.0, 0.5) << rising(1000.0, 1.0);
+        QTest::newRow("1 : 2.02") << voice(500.0, 55.0) << voice(500.0, 55.0, 2.02);
+        QTest::newRow("1 : 2 with another vibrato") << voice(500.0, 55.0) << voice(500.0, 50.0, 2.0);
+        QTest::newRow("beside each other") << voice(500.0, 55.0) << voice(520.0, 55.0);
+    }
+
+    void others()
+    {
+        QFETCH(Way, lower);
+        QFETCH(Way, upper);
+        QCOMPARE(callsOf({trackAlong(lower, 1), trackAlong(upper, 2)}, planOfCalls()), (std::vector<int>{0, 0}));
+    }
+
+    void nothingInCommon()
+    {
+        const Way lower = voice(310.0, 55.0);
+        const Way upper = voice(310.0, 55.0, 2.0);
+        QCOMPARE(callsOf({trackAlong(lower, 1, 0, 100), trackAlong(upper, 2, 100, 100)}, planOfCalls()),
+                 (std::vector<int>{0, 0}));
+        Track absent = trackAlong(upper, 2);
+        for (SmoothedPoint &point : absent.smoothed)
+            point.presence = 0.1f;
+        QCOMPARE(callsOf({trackAlong(lower, 1), absent}, planOfCalls()), (std::vector<int>{0, 0}));
+    }
+
+    /// Offsets from a centre frequency have no overtones, and live events are told one by one.
+    void whereThereAreNone()
+    {
+        const std::vector<Track> tracks{trackAlong(voice(310.0, 55.0), 1), trackAlong(voice(310.0, 55.0, 2.0), 2)};
+        QCOMPARE(callsOf(tracks, planOfCalls()), (std::vector<int>{1, 1}));
+        QCOMPARE(callsOf(tracks, planOfCalls(-2000.0)), (std::vector<int>{0, 0}));
+        AnalysisPlan live = planOfCalls();
+        live.settings.noise.causal = true;
+        QCOMPARE(callsOf(tracks, live), (std::vector<int>{0, 0}));
+        std::vector<Track> causal = tracks;
+        causal[0].smoothed.clear();
+        QCOMPARE(callsOf(causal, planOfCalls()), (std::vector<int>{0, 0}));
+    }
+
+    /// Signals that wander each for themselves.
+    void chanceMakesNoCalls()
+    {
+        std::vector<Track> tracks;
+        for (int id = 1; id <= 120; ++id) {
+            Random random(std::uint64_t(id), 7);
+            std::vector<double> hz{200.0 + 3500.0 * random.uniform()};
+            double rate = 0.0;
+            while (std::ssize(hz) < callFrames)
+                hz.push_back(std::clamp(hz.back() + (rate = 0.95 * rate + 0.3 * random.normal()), 100.0, 3900.0));
+            tracks.push_back(trackAlong([hz](Index frame) { return hz[std::size_t(frame)]; }, id));
+        }
+        QCOMPARE(callsOf(tracks, planOfCalls()), std::vector<int>(tracks.size(), 0)); // of 7140 pairs
+    }
+};
+
+FAINTLINE_TEST(tst_calls)
+#include "tst_calls.moc"
