@@ -242,6 +242,7 @@ namespace {
         Analysis shorter;
         static_cast<AnalysisPlan &>(shorter) = found;
         shorter.areas = found.areas;
+        shorter.lnK = found.lnK;
         WindowChoice tried = choice;
         const double bandHz = double(found.grid().axes.back().count) * found.grid().axes.back().step;
         while (asked.isTooLong) {

@@ -94,6 +94,7 @@ private slots:
     void reportsTheMeanPositionWithinAFrame();
     void strongLinesThatStandStillStay();
     void shorterWindowsAreTriedForWhatIsTooFast();
+    void faintLinesThatGlidesCrossStay();
     void partsBetweenWhichLittleIsLostAreOneTrack();
     void aStrongFastLineIsOneTrack();
     void aChangeOfTheThresholdAsksAgain();
@@ -287,6 +288,27 @@ void tst_otherWindows::shorterWindowsAreTriedForWhatIsTooFast()
                  qPrintable(QString::number(event.windowSeconds)));
         QVERIFY(event.endSeconds - event.onsetSeconds > (isFast ? 0.7 : 1.2));
     }
+}
+
+/// They are asked again over the glides that cross them, also over those of windows that are tried later.
+void tst_otherWindows::faintLinesThatGlidesCrossStay()
+{
+    LineScene lines = scene(16000.0, 40.0, 4);
+    for (int i = 0; i < 2; ++i)
+        lines.lines.push_back(line(4000.0, -1500.0, 4.0 + 9.0 * i, 1.5, 10.0, 0.0125));
+    for (int i = 0; i < 2; ++i)
+        lines.lines.push_back(line(7000.0, -6000.0, 22.0 + 9.0 * i, 0.9, 10.0, 0.0125));
+    for (int i = 0; i < 2; ++i) {
+        lines.lines.push_back(line(3000.0, 0.0, 3.0 + 9.0 * i, 4.0, -5.0, 0.0125));
+        lines.lines.push_back(line(5000.0, 0.0, 20.5 + 9.0 * i, 4.0, -5.0, 0.0125));
+    }
+    const auto analysis = analysed(lines);
+    QCOMPARE(ofAnotherWindow(*analysis).size(), std::size_t(4));
+    std::vector<Event> steady = events(*analysis);
+    std::erase_if(steady, [](const Event &event) { return std::abs(event.driftPerSecond) > 1.0; });
+    QCOMPARE(steady.size(), std::size_t(2)); // each of two stretches
+    for (const Event &event : steady)
+        QVERIFY(event.endSeconds - event.onsetSeconds > 12.5);
 }
 
 /// Strong glides that only a shorter window sees, each with a pause.
