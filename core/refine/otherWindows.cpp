@@ -567,7 +567,7 @@ namespace {
                 noteMovement(alone);
                 Track known = inFramesOf(m_base, *m_other, part);
                 const auto piece =
-                    std::ranges::find_if(pieces, [&](std::size_t s) { return areConnected(m_tracks[s], known, x); });
+                    std::ranges::find_if(pieces, [&](std::size_t s) { return areConnected(m_tracks[s], known, *whole, x); });
                 if (piece != pieces.end()) {
                     prolong(m_tracks[*piece], known, *whole);
                     m_curves[*piece] = Curve(m_tracks[*piece], m_base);
@@ -720,9 +720,12 @@ namespace {
                 m_isTooLong || (isShorter() && window == m_shortest && isBetterIn(known, 0.25 * window, window));
         }
 
-        /// Whether the track of the other window is present all the way between two tracks of the base's frames.
-        bool areConnected(const Track &a, const Track &b, const Track &x) const
+        /// Whether the track x of the other window, in the base's frames `whole`, is present all the way between two tracks
+        /// of these frames.
+        bool areConnected(const Track &a, const Track &b, const Track &whole, const Track &x) const
         {
+            if (a.endFrame + 1 < whole.onsetFrame || a.onsetFrame > whole.endFrame + 1)
+                return false;
             const double from = m_base.time().value(double(std::min(a.endFrame, b.endFrame)));
             const double to = m_base.time().value(double(std::max(a.onsetFrame, b.onsetFrame)));
             for (std::size_t i = 0; i < x.points.size(); ++i)
