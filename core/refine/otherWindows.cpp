@@ -238,10 +238,13 @@ namespace {
                 m_shortest = windowOf(other);
                 m_isTooLong = false;
             }
-            const std::vector<Track> tracks = tracksToAsk();
+            std::vector<Track> signals = withEndsTrimmed(other.tracks);
+            const std::vector<Track> tracks = tracksToAsk(signals);
             if (tracks.empty() || other.time().count < OwnNoiseLaw::fewestFrames)
                 return;
-            m_noise = std::make_unique<OwnNoiseLaw>(ownNoiseLaw(other, tracks, context.part(0.0, 0.5)));
+            std::erase_if(signals, [this](const Track &track) { return !isKnown(Curve(track, *m_other)); });
+            signals.insert(signals.end(), tracks.begin(), tracks.end());
+            m_noise = std::make_unique<OwnNoiseLaw>(ownNoiseLaw(other, signals, context.part(0.0, 0.5)));
             const Index halfWidth = m_halfWidth + levelBesideHalfWidth(m_model.binsPerCell);
             for (std::size_t first = 0; first < tracks.size();) {
                 std::vector<PathStrip> strips;
@@ -389,10 +392,9 @@ namespace {
             return 2 * better > count;
         }
 
-        /// Of the other window, the strongest first.
-        std::vector<Track> tracksToAsk() const
+        /// Those of the other window, the strongest first.
+        std::vector<Track> tracksToAsk(std::vector<Track> tracks) const
         {
-            std::vector<Track> tracks = withEndsTrimmed(m_other->tracks);
             std::erase_if(tracks, [this](const Track &track) {
                 const Curve curve(track, *m_other);
                 return track.peakStatistic < m_other->sureStatistic() || track.points.size() < 2
@@ -566,8 +568,8 @@ namespace {
                     continue;
                 noteMovement(alone);
                 Track known = inFramesOf(m_base, *m_other, part);
-                const auto piece =
-                    std::ranges::find_if(pieces, [&](std::size_t s) { return areConnected(m_tracks[s], known, *whole, x); });
+                const auto piece = std::ranges::find_if(
+                    pieces, [&](std::size_t s) { return areConnected(m_tracks[s], known, *whole, x); });
                 if (piece != pieces.end()) {
                     prolong(m_tracks[*piece], known, *whole);
                     m_curves[*piece] = Curve(m_tracks[*piece], m_base);
@@ -631,7 +633,7 @@ namespace {
             for (std::size_t s = 0; s < m_curves.size(); ++s)
                 if (m_curves[s].count() > 0 && isTaken(s) && m_curves[s].heardFrom() - windowHalf() <= last
                     && m_curves[s].heardUntil() + windowHalf() >= first)
-                    raise(floor, strip, m_curves[s]);
+                    raise(floor, strip, s);
             divide(strip, floor);
         }
 
@@ -644,11 +646,13 @@ namespace {
                 strip.floor[std::size_t(at)] *= floor[std::size_t(at * strip.width() + strip.halfWidth)];
         }
 
-        /// Raises the floor by a signal, whose power is the largest in its band.
-        void raise(std::vector<float> &floor, const PathStrip &strip, const Curve &signal) const
+        /// Raises the floor by a known signal, whose power is the largest in its band.
+        void raise(std::vector<float> &floor, const PathStrip &strip, std::size_t s) const
         {
             const Axis &axis = frequencyOf(*m_other);
-            const double coarser = std::max(1.0, windowOf(*m_other) / windowOf(m_base)) * m_model.binsPerCell; // bins
+            const Curve &signal = m_curves[s];
+            const double own = m_tracks[s].windowSeconds > 0.0 ? m_tracks[s].windowSeconds : windowOf(m_base);
+            const double coarser = std::max(1.0, windowOf(*m_other) / own) * m_model.binsPerCell; // bins
             for (Index at = 0; at < strip.frameCount(); ++at) {
                 const double t = m_other->time().value(double(strip.firstFrame + at));
                 const Band band = signal.between(t - windowHalf(), t + windowHalf());

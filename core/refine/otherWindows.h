@@ -34,7 +34,7 @@ struct AskedWindows {
 /// coarser of both windows, which cannot tell what S consists of; A_S: the largest power in that band. a: the raised level
 /// beside X (areaLevels); areas of the base raise μ as well. What X keeps are its parts: stretches in which it is present
 /// over μ·a (BothWays::endsBy) and whose own gain suffices, under the law of the recording's noise in that window, too
-/// (evidenceLeft), which is measured apart from the tracks that are asked. Then
+/// (evidenceLeft), which is measured apart from the tracks that are asked and from those of known signals. Then
 ///
 ///   replacing   X, from its first part to its last, replaces the tracks that follow it, which lie in four of five of
 ///               their frames within a coarser cell of where it is during T0, if they are pieces of it: each lasts less
