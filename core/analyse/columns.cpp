@@ -120,7 +120,7 @@ std::vector<TableColumn<Event>> eventColumns(const Grid &grid, OptionalColumns o
             for (const SignalKind kind : {SignalKind::Keyed, SignalKind::Spread})
                 add({nameOf(kind), [kind](const Event &e) { return e.kind == kind; }, false});
             add(columnOf("call", &Event::call), "Call", "",
-                "Number of the strongest event among the overtones of one voice, which move together");
+                "Number of the strongest event among the overtones of one source");
         }
     }
     keyRank = 3;

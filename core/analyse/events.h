@@ -45,7 +45,7 @@ struct Event {
     /// T_FT of the window that found it: the frames' own, or another one (otherWindows.h).
     double windowSeconds = std::numeric_limits<double>::quiet_NaN();
     SignalKind kind = SignalKind::Unknown;
-    /// Number of the strongest event among the overtones of one voice (calls.h), if it is one of them; else 0.
+    /// Number of the strongest event among the overtones of one source (calls.h), if it is one of them; else 0.
     int call = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <ranges>
 #include <utility>
 
@@ -13,111 +14,146 @@ namespace faintline {
 
 namespace {
 
-    /// The ratios above 1 of two numbers up to the highest overtone.
-    std::vector<double> overtoneRatios()
+    /// A ratio of two overtones, and ln P of it.
+    struct OvertoneRatio {
+        double value;
+        double lnShare;
+    };
+
+    std::vector<OvertoneRatio> overtoneRatios()
     {
-        std::vector<double> ratios;
+        std::vector<OvertoneRatio> ratios;
+        double sum = 0.0;
         for (int lower = 1; lower <= highestOvertone; ++lower)
             for (int upper = lower + 1; upper <= highestOvertone; ++upper)
-                if (std::gcd(lower, upper) == 1)
-                    ratios.push_back(double(upper) / lower);
+                if (std::gcd(lower, upper) == 1) {
+                    ratios.push_back({double(upper) / lower, -std::log(double(lower * upper))});
+                    sum += 1.0 / double(lower * upper);
+                }
+        for (OvertoneRatio &ratio : ratios)
+            ratio.lnShare -= std::log(sum);
         return ratios;
     }
 
     class Overtones
     {
     public:
-        explicit Overtones(const AnalysisPlan &plan)
-            : m_axis(plan.grid().axes.back()), m_ratios(overtoneRatios()), m_sure(plan.sureStatistic())
-        {
-        }
+        explicit Overtones(const Axis &axis) : m_axis(axis), m_ratios(overtoneRatios()) {}
 
-        bool areOfOneVoice(const Track &one, const Track &other) const
+        /// E of callsOf; nothing if the two are never present together.
+        std::optional<double> evidence(const Track &one, const Track &other) const
         {
             const Index first = std::max(one.onsetFrame, other.onsetFrame);
             if (first > std::min(one.endFrame, other.endFrame))
-                return false;
+                return {};
             const bool isLower = one.positionAt(first) < other.positionAt(first);
-            const std::vector<Together> frames = isLower ? framesOf(one, other) : framesOf(other, one);
-            return !frames.empty() && evidence(frames) >= m_sure;
+            Together both = isLower ? framesOf(one, other) : framesOf(other, one);
+            return both.time.empty() ? std::nullopt : std::optional(evidence(std::move(both)));
         }
 
     private:
-        /// Two tracks in a frame in which both are present, Hz.
+        /// Two tracks in the frames in which both are present, Hz.
         struct Together {
-            double frame = 0.0;
-            double lower = 0.0;
-            double upper = 0.0;
-            double lowerVariance = 0.0;
+            std::vector<double> time; ///< frames
+            std::vector<double> lower;
+            std::vector<double> upper;
+            double lowerVariance = 0.0; ///< of one position
             double upperVariance = 0.0;
         };
 
-        std::vector<Together> framesOf(const Track &lower, const Track &upper) const
+        /// A straight line through values over time, and the deviations from it.
+        struct StraightLine {
+            double mean = 0.0;
+            double slope = 0.0;
+            std::vector<double> rest;
+        };
+
+        Together framesOf(const Track &lower, const Track &upper) const
         {
-            std::vector<Together> frames;
-            const Index end = std::min(lower.endFrame, upper.endFrame);
+            Together both;
             const auto variance = [&](const SmoothedPoint &point) {
                 return std::pow(point.deviation() * m_axis.step, 2.0);
             };
+            const Index end = std::min(lower.endFrame, upper.endFrame);
             for (Index frame = std::max(lower.onsetFrame, upper.onsetFrame); frame <= end; ++frame)
-                if (lower.isPresent(lower.pointIndex(frame)) && upper.isPresent(upper.pointIndex(frame)))
-                    frames.push_back({double(frame), m_axis.value(lower.positionAt(frame)),
-                                      m_axis.value(upper.positionAt(frame)), variance(lower.smoothedAt(frame)),
-                                      variance(upper.smoothedAt(frame))});
-            return frames;
+                if (lower.isPresent(lower.pointIndex(frame)) && upper.isPresent(upper.pointIndex(frame))) {
+                    both.time.push_back(double(frame));
+                    both.lower.push_back(m_axis.value(lower.positionAt(frame)));
+                    both.upper.push_back(m_axis.value(upper.positionAt(frame)));
+                    both.lowerVariance += variance(lower.smoothedAt(frame));
+                    both.upperVariance += variance(upper.smoothedAt(frame));
+                }
+            both.lowerVariance /= double(both.time.size());
+            both.upperVariance /= double(both.time.size());
+            return both;
         }
 
-        double nearestRatio(const std::vector<Together> &frames) const
+        const OvertoneRatio &nearestRatio(double ratio) const
         {
-            double product = 0.0;
-            double square = 0.0;
-            for (const Together &frame : frames) {
-                product += frame.lower * frame.upper;
-                square += frame.lower * frame.lower;
-            }
-            return *std::ranges::min_element(m_ratios, {}, [ratio = product / std::max(square, 1e-300)](double each) {
-                return std::abs(std::log(each / ratio));
-            });
+            return *std::ranges::min_element(
+                m_ratios, {}, [ratio](const OvertoneRatio &each) { return std::abs(std::log(each.value / ratio)); });
         }
 
-        /// The logarithm of the Bayes factor in callsOf.
-        double evidence(const std::vector<Together> &frames) const
+        static double meanProduct(const std::vector<double> &a, const std::vector<double> &b)
         {
-            const double ratio = nearestRatio(frames);
-            double sum = 0.0; // of weights, from here on
-            double sumT = 0.0;
-            double sumTT = 0.0;
-            double sumF = 0.0;
-            double sumTF = 0.0;
-            double sumFF = 0.0;
-            double apart = 0.0;
-            const Together &first = frames.front();
-            for (const Together &at : frames) {
-                const double weight = 1.0 / (at.upperVariance + ratio * ratio * at.lowerVariance);
-                const double t = at.frame - first.frame;
-                const double f = at.upper - first.upper;
-                sum += weight;
-                sumT += weight * t;
-                sumTT += weight * t * t;
-                sumF += weight * f;
-                sumTF += weight * t * f;
-                sumFF += weight * f * f;
-                apart += weight * std::pow(at.upper - ratio * at.lower, 2.0);
-            }
-            const double spread = sumTT - sumT * sumT / sum;
-            const double slope = spread > 0.0 ? (sumTF - sumT * sumF / sum) / spread : 0.0;
-            const double moved = std::max(0.0, sumFF - sumF * sumF / sum - slope * slope * spread);
-            const double count = double(frames.size());
-            const double band = m_axis.step * double(m_axis.count);
-            const double error = std::sqrt(correlatedFrames / sum);
-            return std::log(band / (error * std::sqrt(2.0 * std::numbers::pi)))
-                   + std::max(0.0, 0.5 * count / correlatedFrames - 1.0) * std::log1p(moved / count)
-                   - 0.5 * apart / correlatedFrames - std::log(double(m_ratios.size()));
+            return std::inner_product(a.begin(), a.end(), b.begin(), 0.0) / double(a.size());
+        }
+
+        /// `time`: of mean 0; `spread`: its mean square.
+        static StraightLine lineThrough(const std::vector<double> &time, double spread,
+                                        const std::vector<double> &values)
+        {
+            StraightLine line;
+            line.mean = std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+            line.slope = spread > 0.0 ? meanProduct(time, values) / spread : 0.0;
+            for (std::size_t i = 0; i < values.size(); ++i)
+                line.rest.push_back(values[i] - line.mean - line.slope * time[i]);
+            return line;
+        }
+
+        /// Twice ln p of deviations of mean square `found`, for the most likely variance of at least `least`.
+        static double ownFit(double found, double least)
+        {
+            const double variance = std::max(found, least);
+            return -std::log(variance) - found / variance;
+        }
+
+        double evidence(Together both) const
+        {
+            const auto count = double(both.time.size());
+            const double independent = count / correlatedFrames;
+            const double middle = std::accumulate(both.time.begin(), both.time.end(), 0.0) / count;
+            for (double &time : both.time)
+                time -= middle;
+            const double spread = meanProduct(both.time, both.time);
+            const StraightLine f = lineThrough(both.time, spread, both.lower);
+            const StraightLine g = lineThrough(both.time, spread, both.upper);
+            const auto [ratio, lnShare] = nearestRatio(g.mean / f.mean);
+            const double variance =
+                (both.upperVariance + ratio * ratio * both.lowerVariance) / independent; // of g - ρ·f
+            const auto square = [](double value) { return value * value; };
+            const double place =
+                std::log(m_axis.step * double(m_axis.count) / std::sqrt(2.0 * std::numbers::pi * variance))
+                - 0.5 * square(g.mean - ratio * f.mean) / variance;
+            const double slope = 0.5 * std::log1p(square(g.slope) * spread / variance)
+                                 - 0.5 * square(g.slope - ratio * f.slope) * spread / variance;
+            const double ff = meanProduct(f.rest, f.rest);
+            const double fg = meanProduct(f.rest, g.rest);
+            const double gg = meanProduct(g.rest, g.rest);
+            const auto together = [&](double common) { // twice ln p, if the movement of f has this variance
+                const double a = common + both.lowerVariance;
+                const double b = ratio * common;
+                const double c = ratio * ratio * common + both.upperVariance;
+                const double determinant = a * c - b * b;
+                return -std::log(determinant) - (c * ff - 2.0 * b * fg + a * gg) / determinant;
+            };
+            const double common = std::max(together(0.0), together(std::max(0.0, fg / ratio)));
+            const double apart = ownFit(ff, both.lowerVariance) + ownFit(gg, both.upperVariance);
+            return place + slope + std::max(0.0, 0.5 * independent - 1.0) * (common - apart) + lnShare;
         }
 
         const Axis &m_axis;
-        std::vector<double> m_ratios;
-        double m_sure; ///< nat
+        std::vector<OvertoneRatio> m_ratios;
     };
 
 } // namespace
@@ -129,16 +165,29 @@ std::vector<int> callsOf(const std::vector<Track> &tracks, const AnalysisPlan &p
     if (!plan.grid().isSpectrum() || plan.grid().axes.back().value(0.0) < 0.0 || !settings.family.isNone()
         || settings.noise.causal || !std::ranges::all_of(tracks, &Track::hasSecondPass))
         return calls;
-    const Overtones overtones(plan);
+    const Overtones overtones(plan.grid().axes.back());
+    const double sure = std::log(double(tracks.size())) + sureMarginNats;
     std::vector<std::size_t> strongestFirst(tracks.size());
     std::iota(strongestFirst.begin(), strongestFirst.end(), std::size_t(0));
     std::ranges::stable_sort(strongestFirst, std::greater<>(), [&](std::size_t i) { return tracks[i].peakStatistic; });
     for (auto leader = strongestFirst.begin(); leader != strongestFirst.end(); ++leader) {
         if (calls[*leader] != 0)
             continue;
+        std::vector<std::pair<std::size_t, double>> together;
         for (const std::size_t other : std::ranges::subrange(leader + 1, strongestFirst.end()))
-            if (calls[other] == 0 && overtones.areOfOneVoice(tracks[*leader], tracks[other]))
-                calls[*leader] = calls[other] = tracks[*leader].id;
+            if (calls[other] == 0)
+                if (const auto evidence = overtones.evidence(tracks[*leader], tracks[other]))
+                    together.emplace_back(other, *evidence);
+        const double choice = std::log(double(together.size()));
+        std::erase_if(together, [&](const auto &each) { return each.second <= choice; });
+        double sum = 0.0;
+        for (const auto &[other, evidence] : together)
+            sum += evidence - choice;
+        if (sum < sure)
+            continue;
+        calls[*leader] = tracks[*leader].id;
+        for (const auto &[other, evidence] : together)
+            calls[other] = tracks[*leader].id;
     }
     return calls;
 }

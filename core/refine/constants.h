@@ -120,7 +120,7 @@ inline constexpr Index seenWithinFrames = 12;        ///< of a bridge
 // ---- positions as frequencies --------------------------------------------------------------------------------------
 
 inline constexpr double correlatedFrames = 6.0; ///< over which errors of positions are alike
-inline constexpr int highestOvertone = 16; ///< of a voice, whose overtones are one call
+inline constexpr int highestOvertone = 16; ///< of a source, whose overtones are one call
 inline constexpr double curvatureDeviations = 3.0;
 inline constexpr std::size_t fewestCurvatureFrames = 8;
 inline constexpr double smoothedFrames = 32.0; ///< period that is halved, of usual signals

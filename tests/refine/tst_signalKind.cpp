@@ -23,9 +23,9 @@ Analysis withOneLine(const ModelSettings &law = {})
 }
 
 /// The same, as if the line's band were so many resolution cells wide and its power so many times the noise's.
-Analysis withBand(Analysis analysis, double cells, float level)
+Analysis withBand(Analysis analysis, double bandCells, float level)
 {
-    const double half = 0.5 * cells * analysis.frames->spectrogram()->binsPerCell();
+    const double half = 0.5 * bandCells * analysis.frames->spectrogram()->binsPerCell();
     for (SmoothedPoint &point : analysis.tracks.at(0).smoothed)
         point = {point.position, float(point.position - half), float(point.position + half), 1.0f, level};
     return analysis;

@@ -43,7 +43,7 @@ public:
         Chance, ///< of being noise, if it is known of some events
         Window, ///< if events were found with different windows
         Kind,   ///< if not all are lines
-        Call,   ///< if some are overtones of one voice
+        Call,   ///< if some are overtones of one source
         Utc,    ///< onset, if the recording's start time is known
         Radio,  ///< frequency including the receiver's centre, if there is one
         End,
@@ -75,7 +75,7 @@ public:
     bool hasWindows() const;
     /// Whether some events are of another kind than lines.
     bool hasKinds() const;
-    /// Whether some events are overtones of one voice.
+    /// Whether some events are overtones of one source.
     bool hasCalls() const;
     /// Whether any event has a class.
     bool hasClasses() const;
