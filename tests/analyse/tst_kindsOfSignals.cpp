@@ -206,7 +206,7 @@ private slots:
             mixture.add({from, from + seconds, [=](double t) { return first + slope * (t - from); },
                          mixture.uniform(4.0, 12.0), 0.1});
         }
-        expect(mixture, 30.0, 26, 2.5, 0.95);
+        expect(mixture, 30.0, 28, 2.6, 0.95);
     }
 
     void tonalsUnderModulatedNoise()
