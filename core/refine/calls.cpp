@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -128,6 +129,8 @@ namespace {
             const double spread = meanProduct(both.time, both.time);
             const StraightLine f = lineThrough(both.time, spread, both.lower);
             const StraightLine g = lineThrough(both.time, spread, both.upper);
+            if (f.mean <= 0.0)
+                return -std::numeric_limits<double>::infinity();
             const auto [ratio, lnShare] = nearestRatio(g.mean / f.mean);
             const double variance =
                 (both.upperVariance + ratio * ratio * both.lowerVariance) / independent; // of g - ρ·f

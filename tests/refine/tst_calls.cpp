@@ -146,6 +146,15 @@ private slots:
         QCOMPARE(callsOf({trackAlong(lower, 1), absent}, planOfCalls()), (std::vector<int>{0, 0}));
     }
 
+    void noOvertonesOfZero()
+    {
+        std::vector<Track> tracks{trackAlong(steady(2.0), 1), trackAlong(steady(2.0), 2)};
+        for (Track &track : tracks)
+            for (SmoothedPoint &point : track.smoothed)
+                point.position = 0.0;
+        QCOMPARE(callsOf(tracks, planOfCalls()), (std::vector<int>{0, 0}));
+    }
+
     /// Offsets from a centre frequency have no overtones, and live events are told one by one.
     void whereThereAreNone()
     {
