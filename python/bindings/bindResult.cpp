@@ -127,7 +127,8 @@ void bindResult(py::module_ &module)
 
 The fields are the columns of the command line's CSV: event, t_onset, t_detect, t_end (s), f (Hz, in the
 middle between onset and end; with several axes, one field for each, at detection), drift_hz_per_s, statistic (unit: statistic_unit), confirmed, open, and, if tracks had
-a second pass, snr_db, band_hz, noise_probability, window_s. With subtract.lines, subtracted follows; with two models
+a second pass, snr_db, band_hz, noise_probability, window_s, keyed, spread (0 or 1) and call, the number of the
+strongest event among the overtones of one source, or 0. With subtract.lines, subtracted follows; with two models
 in parallel (preset sonarBank), model, which found the event, and model_changes, "t:name;…". f is an offset from the
 recording's centre_hz.)")
         .def_property_readonly(

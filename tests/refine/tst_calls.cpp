@@ -181,7 +181,7 @@ private slots:
     {
         QFETCH(double, rateHz);
         int recordingsWithCalls = 0;
-        for (std::uint64_t recording = 0; recording < 40; ++recording) {
+        for (std::uint64_t recording = 0; recording < 20; ++recording) {
             std::vector<Track> tracks;
             for (int id = 1; id <= 120; ++id) {
                 Random random(std::uint64_t(id), 7 + recording);
