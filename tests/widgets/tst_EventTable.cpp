@@ -311,6 +311,10 @@ private slots:
         };
         QCOMPARE(cell(0), QString());
         QCOMPARE(cell(1), QString("3"));
+        m_table->setSelectedEvent(2);
+        QVERIFY(m_table->card().text().contains("Call"));
+        m_table->setSelectedEvent(1);
+        QVERIFY(!m_table->card().text().contains("Call"));
     }
 
 private:

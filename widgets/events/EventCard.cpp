@@ -97,7 +97,8 @@ void EventCard::fill()
     const QString to = factOf(m_model, m_row, EventModel::End).value;
     const bool isClock = from.contains(QLatin1Char(':'));
     facts.push_back({tr("Time"), isClock ? tr("%1 … %2").arg(from, to) : tr("%1 … %2 s").arg(from, to)});
-    for (const int column : {EventModel::Drift, EventModel::Window, EventModel::Utc, EventModel::Radio})
+    for (const int column :
+         {EventModel::Drift, EventModel::Window, EventModel::Call, EventModel::Utc, EventModel::Radio})
         if (column != EventModel::Radio || m_model.hasRadio())
             facts.push_back(factOf(m_model, m_row, column));
     for (const int column : {EventModel::Chance, EventModel::Class, EventModel::Judged, EventModel::Note})
