@@ -36,6 +36,12 @@ namespace {
         return analysis.frames->geometry().windowSeconds;
     }
 
+    /// The one in which a track was found.
+    double windowOf(const Track &track, const Analysis &analysis)
+    {
+        return track.windowSeconds > 0.0 ? track.windowSeconds : windowOf(analysis);
+    }
+
     struct Band {
         double low = std::numeric_limits<double>::infinity();
         double high = -std::numeric_limits<double>::infinity();
@@ -48,7 +54,7 @@ namespace {
     {
     public:
         Curve(const Track &track, const Analysis &analysis)
-            : TrackCurve(track, analysis.time(), frequencyOf(analysis)), m_windowHalf(0.5 * windowOf(analysis))
+            : TrackCurve(track, analysis.time(), frequencyOf(analysis)), m_windowHalf(0.5 * windowOf(track, analysis))
         {
             const Axis &axis = frequencyOf(analysis);
             for (std::size_t i = 0; i < track.points.size(); ++i) {
@@ -651,8 +657,8 @@ namespace {
         {
             const Axis &axis = frequencyOf(*m_other);
             const Curve &signal = m_curves[s];
-            const double own = m_tracks[s].windowSeconds > 0.0 ? m_tracks[s].windowSeconds : windowOf(m_base);
-            const double coarser = std::max(1.0, windowOf(*m_other) / own) * m_model.binsPerCell; // bins
+            const double coarser =
+                std::max(1.0, windowOf(*m_other) / windowOf(m_tracks[s], m_base)) * m_model.binsPerCell; // bins
             for (Index at = 0; at < strip.frameCount(); ++at) {
                 const double t = m_other->time().value(double(strip.firstFrame + at));
                 const Band band = signal.between(t - windowHalf(), t + windowHalf());
