@@ -164,9 +164,8 @@ namespace {
 std::vector<int> callsOf(const std::vector<Track> &tracks, const AnalysisPlan &plan)
 {
     std::vector<int> calls(tracks.size(), 0);
-    const AnalysisSettings &settings = plan.settings;
-    if (!plan.grid().isSpectrum() || plan.grid().axes.back().value(0.0) < 0.0 || !settings.family.isNone()
-        || settings.noise.causal || !std::ranges::all_of(tracks, &Track::hasSecondPass))
+    const bool hasOvertones = plan.grid().isSpectrum() && plan.grid().axes.back().value(0.0) >= 0.0;
+    if (!hasOvertones || plan.settings.noise.causal || !std::ranges::all_of(tracks, &Track::hasSecondPass))
         return calls;
     const Overtones overtones(plan.grid().axes.back());
     const double sure = std::log(double(tracks.size())) + sureMarginNats;

@@ -31,8 +31,8 @@ namespace faintline {
 ///
 /// so that chance makes a call of N tracks in less than one of 25 recordings (Kass and Raftery 1995, Bayes factors).
 ///
-/// Of lines with a second pass, in a recording whose frequencies are not offsets (I/Q), and not over a causal background,
-/// over which events are told one by one; else all are 0.
+/// Of lines, or families, with a second pass, in a recording whose frequencies are not offsets (I/Q), and not over a causal
+/// background, over which events are told one by one; else all are 0.
 std::vector<int> callsOf(const std::vector<Track> &tracks, const AnalysisPlan &plan);
 
 } // namespace faintline
