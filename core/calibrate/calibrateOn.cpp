@@ -32,6 +32,20 @@ namespace {
         Blocks    ///< followed, of a detector that decides at the ends of blocks
     };
 
+    /// Of block maxima, per cell and frame, from frequent ones on.
+    std::span<const double> countedRates(TailShape shape)
+    {
+        switch (shape) {
+        case TailShape::Line:
+            return ratesOfLine;
+        case TailShape::Blocks:
+            return ratesOfBlocks;
+        case TailShape::Followed:
+            break;
+        }
+        return ratesBeforeSplitting;
+    }
+
     /// Thresholds at which chains are expected to find events at about the wanted rates, from a rough analysis of the
     /// maxima of space-time blocks: P(max ≤ T) = exp(-Λ e^{-θ(T-u)}), with Λ and θ from two quantiles.
     std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFramesPerBlock, double cellFrames,
@@ -51,11 +65,7 @@ namespace {
         const bool isLine = shape == TailShape::Line;
         const double expected = isLine ? expectedTailMaxima / 3.0 : expectedTailMaxima;
         const double scale = std::max(1.0, expected / (ratesOfLine.front() * cellFrames));
-        const std::span<const double> rates = isLine ? std::span<const double>(ratesOfLine)
-                                              : shape == TailShape::Blocks
-                                                  ? std::span<const double>(ratesOfBlocks)
-                                                  : std::span<const double>(ratesBeforeSplitting);
-        for (const double rate : rates)
+        for (const double rate : countedRates(shape))
             thresholds.push_back(quantile(upperMaximaQuantile)
                                  + std::log(-std::log(upperMaximaQuantile) / perMaximum / (rate * scale)) / theta);
         return thresholds;

@@ -15,6 +15,8 @@ namespace faintline {
 
 namespace {
 
+    constexpr Index mostComparedFrames = 512; ///< of two tracks, at even intervals: the time for a pair is bounded
+
     /// A ratio of two overtones, and ln P of it.
     struct OvertoneRatio {
         double value;
@@ -53,13 +55,14 @@ namespace {
         }
 
     private:
-        /// Two tracks in the frames in which both are present, Hz.
+        /// Two tracks in frames in which both are present, Hz.
         struct Together {
             std::vector<double> time; ///< frames
             std::vector<double> lower;
             std::vector<double> upper;
             double lowerVariance = 0.0; ///< of one position
             double upperVariance = 0.0;
+            double independent = 0.0; ///< frames with errors each their own
         };
 
         /// A straight line through values over time, and the deviations from it.
@@ -75,8 +78,10 @@ namespace {
             const auto variance = [&](const SmoothedPoint &point) {
                 return std::pow(point.deviation() * m_axis.step, 2.0);
             };
+            const Index first = std::max(lower.onsetFrame, upper.onsetFrame);
             const Index end = std::min(lower.endFrame, upper.endFrame);
-            for (Index frame = std::max(lower.onsetFrame, upper.onsetFrame); frame <= end; ++frame)
+            const Index step = 1 + (end - first) / mostComparedFrames;
+            for (Index frame = first; frame <= end; frame += step)
                 if (lower.isPresent(lower.pointIndex(frame)) && upper.isPresent(upper.pointIndex(frame))) {
                     both.time.push_back(double(frame));
                     both.lower.push_back(m_axis.value(lower.positionAt(frame)));
@@ -86,6 +91,7 @@ namespace {
                 }
             both.lowerVariance /= double(both.time.size());
             both.upperVariance /= double(both.time.size());
+            both.independent = double(both.time.size()) * std::min(1.0, double(step) / correlatedFrames);
             return both;
         }
 
@@ -122,7 +128,6 @@ namespace {
         double evidence(Together both) const
         {
             const auto count = double(both.time.size());
-            const double independent = count / correlatedFrames;
             const double middle = std::accumulate(both.time.begin(), both.time.end(), 0.0) / count;
             for (double &time : both.time)
                 time -= middle;
@@ -133,7 +138,7 @@ namespace {
                 return -std::numeric_limits<double>::infinity();
             const auto [ratio, lnShare] = nearestRatio(g.mean / f.mean);
             const double variance =
-                (both.upperVariance + ratio * ratio * both.lowerVariance) / independent; // of g - ρ·f
+                (both.upperVariance + ratio * ratio * both.lowerVariance) / both.independent; // of g - ρ·f
             const auto square = [](double value) { return value * value; };
             const double place =
                 std::log(m_axis.step * double(m_axis.count) / std::sqrt(2.0 * std::numbers::pi * variance))
@@ -152,7 +157,7 @@ namespace {
             };
             const double common = std::max(together(0.0), together(std::max(0.0, fg / ratio)));
             const double apart = ownFit(ff, both.lowerVariance) + ownFit(gg, both.upperVariance);
-            return place + slope + std::max(0.0, 0.5 * independent - 1.0) * (common - apart) + lnShare;
+            return place + slope + std::max(0.0, 0.5 * both.independent - 1.0) * (common - apart) + lnShare;
         }
 
         const Axis &m_axis;

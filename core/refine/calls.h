@@ -29,7 +29,7 @@ namespace faintline {
 ///
 ///   Σ (E - ln M) ≥ ln N + sureMarginNats
 ///
-/// so that chance makes a call of N tracks in less than one of 25 recordings (Kass and Raftery 1995, Bayes factors).
+/// so that chance makes a call of N tracks in fewer than one of 25 recordings (Kass and Raftery 1995, Bayes factors).
 ///
 /// Of lines, or families, with a second pass, in a recording whose frequencies are not offsets (I/Q), and not over a causal
 /// background, over which events are told one by one; else all are 0.

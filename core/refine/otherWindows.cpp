@@ -245,10 +245,12 @@ namespace {
                 m_isTooLong = false;
             }
             std::vector<Track> signals = withEndsTrimmed(other.tracks);
-            const std::vector<Track> tracks = tracksToAsk(signals);
+            const auto unknown = std::ranges::stable_partition(
+                signals, [this](const Track &track) { return isKnown(Curve(track, *m_other)); });
+            const std::vector<Track> tracks = tracksToAsk({unknown.begin(), unknown.end()});
             if (tracks.empty() || other.time().count < OwnNoiseLaw::fewestFrames)
                 return;
-            std::erase_if(signals, [this](const Track &track) { return !isKnown(Curve(track, *m_other)); });
+            signals.erase(unknown.begin(), unknown.end());
             signals.insert(signals.end(), tracks.begin(), tracks.end());
             m_noise = std::make_unique<OwnNoiseLaw>(ownNoiseLaw(other, signals, context.part(0.0, 0.5)));
             const Index halfWidth = m_halfWidth + levelBesideHalfWidth(m_model.binsPerCell);
@@ -398,13 +400,13 @@ namespace {
             return 2 * better > count;
         }
 
-        /// Those of the other window, the strongest first.
+        /// Those tracks of the other window, the strongest first.
         std::vector<Track> tracksToAsk(std::vector<Track> tracks) const
         {
             std::erase_if(tracks, [this](const Track &track) {
                 const Curve curve(track, *m_other);
                 return track.peakStatistic < m_other->sureStatistic() || track.points.size() < 2
-                       || kindOf(track, *m_other) == SignalKind::Spread || isKnown(curve)
+                       || kindOf(track, *m_other) == SignalKind::Spread
                        || !(isShorter() || isSeenBetter(curve) || followersOf(curve).size() > 1);
             });
             std::ranges::stable_sort(tracks, std::greater<>(), &Track::peakStatistic);

@@ -35,6 +35,17 @@ LineScene sixThatStandStill(int seed)
     return result;
 }
 
+/// Two of each, at 10 dB in 12.5 ms, of which the chosen window sees none.
+LineScene slowAndFastGlides()
+{
+    LineScene result = scene(16000.0, 40.0, 4);
+    for (int i = 0; i < 2; ++i)
+        result.lines.push_back(line(4000.0, -1500.0, 4.0 + 9.0 * i, 1.5, 10.0, 0.0125));
+    for (int i = 0; i < 2; ++i)
+        result.lines.push_back(line(7000.0, -6000.0, 22.0 + 9.0 * i, 0.9, 10.0, 0.0125));
+    return result;
+}
+
 std::shared_ptr<const Analysis> analysed(const LineScene &scene, const AnalysisSettings &settings = {},
                                          const Analysis *previous = nullptr)
 {
@@ -272,11 +283,7 @@ void tst_otherWindows::strongLinesThatStandStillStay()
 /// faster ones, too.
 void tst_otherWindows::shorterWindowsAreTriedForWhatIsTooFast()
 {
-    LineScene glides = scene(16000.0, 40.0, 4);
-    for (int i = 0; i < 2; ++i)
-        glides.lines.push_back(line(4000.0, -1500.0, 4.0 + 9.0 * i, 1.5, 10.0, 0.0125));
-    for (int i = 0; i < 2; ++i)
-        glides.lines.push_back(line(7000.0, -6000.0, 22.0 + 9.0 * i, 0.9, 10.0, 0.0125));
+    const LineScene glides = slowAndFastGlides();
     const auto analysis = analysed(glides);
     const double window = analysis->frames->spectrogram()->windowSeconds();
     QVERIFY(window > 0.15);
@@ -293,11 +300,7 @@ void tst_otherWindows::shorterWindowsAreTriedForWhatIsTooFast()
 /// They are asked again over the glides that cross them, also over those of windows that are tried later.
 void tst_otherWindows::faintLinesThatGlidesCrossStay()
 {
-    LineScene lines = scene(16000.0, 40.0, 4);
-    for (int i = 0; i < 2; ++i)
-        lines.lines.push_back(line(4000.0, -1500.0, 4.0 + 9.0 * i, 1.5, 10.0, 0.0125));
-    for (int i = 0; i < 2; ++i)
-        lines.lines.push_back(line(7000.0, -6000.0, 22.0 + 9.0 * i, 0.9, 10.0, 0.0125));
+    LineScene lines = slowAndFastGlides();
     for (int i = 0; i < 2; ++i) {
         lines.lines.push_back(line(3000.0, 0.0, 3.0 + 9.0 * i, 4.0, -5.0, 0.0125));
         lines.lines.push_back(line(5000.0, 0.0, 20.5 + 9.0 * i, 4.0, -5.0, 0.0125));
